@@ -1,0 +1,63 @@
+#pragma once
+
+#include <ImathBox.h>
+#include <ImathVec.h>
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "guiding/distribution.h"
+#include "guiding/result.h"
+#include "guiding/sample.h"
+#include "guiding/settings.h"
+#include "guiding/stats.h"
+
+namespace guiding {
+
+/// The SD-tree [Müller et al. 2017]: learns incident radiance from RadianceSamples and offers a density to sample it.
+///
+/// A field is trained in iterations: accumulate() any number of times, then endIteration(), which freezes what was learned
+/// into the density that bind() offers during the next iteration and refines the tree. bind() and everything on a
+/// GuidingDistribution is lock-free and may be called from any thread, but not during endIteration(). accumulate() and
+/// endIteration() are called by one thread at a time; they spread their work over the caller's oneTBB task arena and give the
+/// same bits on any number of threads. Several fields may live side by side.
+class Field {
+ public:
+  /// A field over `bounds` (world space; enlarged to a cube). Fails on an empty or non-finite box or invalid settings.
+  static Result<Field> create(const Imath::Box3f& bounds, const FieldSettings& settings);
+
+  Field(Field&&) noexcept;
+  Field& operator=(Field&&) noexcept;
+  ~Field();
+
+  /// Learns from the buffers, in their order. Bad samples are dropped and counted. Does not touch what bind() offers.
+  void accumulate(std::span<const SampleBuffer> buffers);
+  void accumulate(const SampleBuffer& buffer) { accumulate(std::span(&buffer, 1)); }
+
+  /// Ends an iteration of `spp` samples per pixel (which scales the split threshold): freezes, compensates, refines.
+  /// Invalidates every GuidingDistribution.
+  void endIteration(double spp);
+
+  /// The density at a point, world space; "no guide" before the first iteration has ended and where nothing was learned.
+  GuidingDistribution bind(const Imath::V3f& position) const noexcept;
+
+  /// True once bind() can return a guide somewhere.
+  bool hasGuide() const noexcept;
+
+  const FieldSettings& settings() const noexcept;
+  const Imath::Box3f& bounds() const noexcept;
+  FieldStats stats() const;
+
+  /// Walks every tree: masses finite and >= 0, parents the sum of children, densities integrate to 1, indices in range.
+  /// The error names the first violation.
+  Status validate() const;
+
+ private:
+  friend class FieldSerializer;
+  struct State;
+  explicit Field(std::unique_ptr<State> state) noexcept;
+  std::unique_ptr<State> m_state;
+};
+
+}  // namespace guiding

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+
+#include "guiding/settings.h"
+
+namespace guiding {
+
+/// What the compensation solver found.
+struct CompensationResult {
+  double lambda = 0;         ///< multiplier: p = max(alpha b, t/lambda); 0 if there is no target
+  double removedMass = 0;    ///< share of the target's mass in cells that end up empty, in [0, 1]
+  bool empty = false;        ///< nothing is left for the guide to sample: use the BSDF alone
+};
+
+/// Sharpens a learned target against the technique it is mixed with.
+///
+/// Given cells with target mass t_j >= 0 and density mass b_j >= 0 (summing to at most 1) of the other technique, which is sampled
+/// with probability alpha in [0, 1), overwrites q_j with the masses of the free technique's density (they sum to 1).
+/// WaterFilling: minimises sum_j t_j^2/p_j for p = alpha b + (1-alpha) q exactly [KKT: p = max(alpha b, t/lambda)].
+/// ClipRenormalise: q ~ max(0, t/T - alpha b) [Karlík et al. 2019]. None: q = t/T.
+/// Only ratios of t matter. q may alias t. Allocates nothing.
+CompensationResult compensate(std::span<const float> t, std::span<const float> b, float alpha, CompensationForm form,
+                              std::span<float> q) noexcept;
+
+/// Weight of technique `a` with nA samples of density pdfA against nB of pdfB [Veach & Guibas 1995].
+inline float balanceHeuristic(float nA, float pdfA, float nB, float pdfB) noexcept {
+  const float a = nA * pdfA, b = nB * pdfB;
+  return a > 0 ? a / (a + b) : 0.0f;
+}
+/// The same with exponent 2.
+inline float powerHeuristic(float nA, float pdfA, float nB, float pdfB) noexcept {
+  const float a = nA * pdfA, b = nB * pdfB;
+  if (!(a > 0)) return 0.0f;
+  const float r = b / a;  // the ratio first: squares of large densities overflow
+  return 1 / (1 + r * r);
+}
+
+}  // namespace guiding

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <ImathVec.h>
+
+#include <concepts>
+
+#include "guiding/distribution.h"
+
+namespace guiding {
+
+/// Value and density of a BSDF for one pair of directions. Delta lobes take no part.
+template <class Color>
+struct BsdfEvaluation {
+  Color bsdfCos;  ///< BSDF * |cos|
+  float pdf = 0;  ///< density with which the BSDF's own sampler draws wi, per solid angle, its lobe choice included
+};
+
+/// A direction drawn by the BSDF's own sampler.
+template <class Color>
+struct BsdfDraw {
+  Imath::V3f wi;
+  Color weight;          ///< BSDF * |cos| / pdf (for a delta lobe its throughput weight); black: the sample failed
+  float pdf = 0;         ///< per solid angle; for a delta lobe the probability of choosing it
+  bool isDelta = false;
+};
+
+/// The outcome of one-sample MIS.
+template <class Color>
+struct MixtureDraw {
+  Imath::V3f wi;
+  Color weight;            ///< throughput weight: BSDF * |cos| / mixturePdf; black: the path ends
+  Color bsdfCos;           ///< BSDF * |cos|; unset for delta events
+  float pdf = 0;           ///< alpha * bsdfPdf + (1 - alpha) * guidePdf, per solid angle; for a delta event alpha * probability
+  float bsdfPdf = 0;
+  float guidePdf = 0;
+  bool isDelta = false;
+  bool fromGuide = false;
+};
+
+/// What the mixture asks of a host's BSDF at one shading point (world space directions).
+template <class B>
+concept HostBsdf = requires(const B& bsdf, Imath::V3f wi, float uLobe, Imath::V2f u) {
+  typename B::Color;
+  { bsdf.evaluate(wi) } -> std::same_as<BsdfEvaluation<typename B::Color>>;
+  { bsdf.sample(uLobe, u) } -> std::same_as<BsdfDraw<typename B::Color>>;
+};
+
+/// Density of wi under the mixture, for MIS against light sampling. `bsdfPdf` is the BSDF sampler's own density of wi.
+inline float mixturePdf(const GuidingDistribution& guide, float bsdfPdf, const Imath::V3f& wi) noexcept {
+  if (!guide) return bsdfPdf;
+  const float alpha = guide.bsdfSamplingFraction();
+  return alpha * bsdfPdf + (1 - alpha) * guide.pdf(wi);
+}
+
+/// One-sample MIS of a BSDF and the guide under the balance heuristic [Veach & Guibas 1995, Sec. 5.2].
+///
+/// The direction that is returned is the truth: both densities are those of that very float direction. Without a guide
+/// this is plain BSDF sampling. uChoice in [0,1) chooses the technique and is rescaled for reuse.
+template <HostBsdf B>
+MixtureDraw<typename B::Color> sampleMixture(const B& bsdf, const GuidingDistribution& guide, float uChoice,
+                                             const Imath::V2f& u) noexcept {
+  MixtureDraw<typename B::Color> draw{};
+  const float alpha = guide ? guide.bsdfSamplingFraction() : 1.0f;
+
+  if (uChoice < alpha) {
+    const auto b = bsdf.sample(uChoice / alpha < 1 ? uChoice / alpha : 0x1.fffffep-1f, u);
+    draw.wi = b.wi;
+    draw.isDelta = b.isDelta;
+    draw.bsdfPdf = b.pdf;
+    if (b.isDelta || !guide) {  // the guide cannot produce a delta direction
+      draw.pdf = alpha * b.pdf;
+      draw.weight = b.weight * (1 / alpha);
+      draw.bsdfCos = b.weight * b.pdf;
+      return draw;
+    }
+    draw.guidePdf = guide.pdf(b.wi);
+    draw.pdf = alpha * b.pdf + (1 - alpha) * draw.guidePdf;
+    draw.bsdfCos = b.weight * b.pdf;
+  } else {
+    const DirectionSample g = guide.sample(u);
+    const auto e = bsdf.evaluate(g.wi);
+    draw.wi = g.wi;
+    draw.fromGuide = true;
+    draw.guidePdf = g.pdf;
+    draw.bsdfPdf = e.pdf;
+    draw.pdf = alpha * e.pdf + (1 - alpha) * g.pdf;
+    draw.bsdfCos = e.bsdfCos;
+  }
+  draw.weight = draw.pdf > 0 ? draw.bsdfCos * (1 / draw.pdf) : typename B::Color(0.0f);
+  return draw;
+}
+
+}  // namespace guiding

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <ImathVec.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "guiding/sample.h"
+
+namespace guiding {
+
+/// Turns the events of one path into RadianceSamples with one backward pass over its vertices.
+///
+/// Radiance is accumulated from the end of the path to its start, so nothing is ever divided by the throughput. A
+/// recorder is used by one thread at a time and keeps its memory from path to path.
+///
+/// Order of calls along a path: begin(); then at each scattering vertex addDirect() (if light was sampled there) and
+/// scatter(); after the next intersection addEmission() (if light was met) and, if roulette was played there and the
+/// path went on, survived(); at the end finish().
+class PathRecorder {
+ public:
+  void begin() noexcept { m_vertices.clear(); }
+
+  /// One scattering event.
+  struct Scatter {
+    Imath::V3f position;      ///< world space
+    Imath::V3f wi;            ///< sampled direction, unit
+    Imath::V3f weight;        ///< BSDF * |cos| / pdf, per channel (for a delta event its throughput weight)
+    Imath::V3f bsdfCos;       ///< BSDF * |cos| alone, per channel; unused for delta events
+    float pdf = 0;            ///< density of wi that was really used (the mixture), per solid angle
+    float bsdfPdf = 0;        ///< the BSDF sampler's own density of wi, per solid angle
+    bool isDelta = false;     ///< delta events carry radiance on but are not learned from
+  };
+  void scatter(const Scatter& event) { m_vertices.push_back({event, {0, 0, 0}, {0, 0, 0}, 1.0f, kNoDistance}); }
+
+  /// Light sampled at the vertex that the last scatter() reached (or, before any scatter, at the first vertex, which no
+  /// sample learns from). `contribution` is BSDF * cos * Le * misWeight / pdf at that vertex, without the throughput.
+  void addDirect(const Imath::V3f& contribution) noexcept {
+    if (!m_vertices.empty()) m_vertices.back().direct += contribution;
+  }
+
+  /// Emission met by the ray of the last scatter(), already times its MIS weight.
+  void addEmission(const Imath::V3f& emission) noexcept {
+    if (!m_vertices.empty()) m_vertices.back().emission += emission;
+  }
+
+  /// Distance of the vertex that the last scatter() reached. Not called when its ray left the scene.
+  void setDistance(float distance) noexcept {
+    if (!m_vertices.empty()) m_vertices.back().distance = distance;
+  }
+
+  /// The path outlived Russian roulette at the vertex that the last scatter() reached with this probability, in (0, 1].
+  void survived(float probability) noexcept {
+    if (!m_vertices.empty()) m_vertices.back().survivalProbability *= probability;
+  }
+
+  /// Appends one sample for each event that is not a delta event, first vertex first.
+  void finish(SampleBuffer& out);
+
+ private:
+  static constexpr float kNoDistance = -1;
+
+  struct Vertex {
+    Scatter event;
+    Imath::V3f emission;  ///< arrives at this vertex from the end of its ray
+    Imath::V3f direct;    ///< scattered towards this vertex at the end of its ray by light sampling there
+    float survivalProbability;
+    float distance;
+  };
+  std::vector<Vertex> m_vertices;
+  std::vector<RadianceSample> m_scratch;
+};
+
+}  // namespace guiding

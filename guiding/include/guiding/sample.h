@@ -1,0 +1,36 @@
+#pragma once
+
+#include <ImathVec.h>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace guiding {
+
+/// What training learns from: one scattering event of one path.
+struct RadianceSample {
+  Imath::V3f position;   ///< where the path scattered, world space
+  Imath::V3f direction;  ///< wi: unit vector of the sampled direction, pointing to where the radiance comes from
+  float radiance = 0;    ///< estimate of the incident radiance from `direction`, mean of the colour channels, >= 0; zero counts
+  float product = 0;     ///< estimate of radiance * BSDF * cos, mean of the colour channels, >= 0
+  float pdf = 0;         ///< density of `direction` (mixture of BSDF and guide), per solid angle, > 0
+  float bsdfPdf = 0;     ///< the BSDF sampler's own density of `direction`, per solid angle, >= 0
+  float distance = 0;    ///< to the next vertex along `direction`, scene units; infinity when the ray left the scene
+  float statisticalWeight = 1;  ///< how many samples this one stands for, > 0
+};
+
+/// Samples of one tile in the order in which its paths were traced. Keeps its memory between uses.
+class SampleBuffer {
+ public:
+  void clear() noexcept { m_samples.clear(); }
+  void reserve(std::size_t count) { m_samples.reserve(count); }
+  void add(const RadianceSample& sample) { m_samples.push_back(sample); }
+  std::size_t size() const noexcept { return m_samples.size(); }
+  std::span<const RadianceSample> samples() const noexcept { return m_samples; }
+
+ private:
+  std::vector<RadianceSample> m_samples;
+};
+
+}  // namespace guiding

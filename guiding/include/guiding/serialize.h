@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "guiding/field.h"
+#include "guiding/result.h"
+
+namespace guiding {
+
+/// Writes the field (versioned, little-endian, checksummed) to a temporary name and renames it, so that an old file is never lost.
+Status save(const Field& field, const std::filesystem::path& path);
+
+/// Reads a field that save() wrote. Foreign, truncated, corrupted or newer files give ErrorCode::Format; sizes are checked
+/// against the file's length before anything is allocated.
+Result<Field> load(const std::filesystem::path& path);
+
+}  // namespace guiding

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "guiding/result.h"
+
+namespace guiding {
+
+/// How the unit square of a directional quadtree is laid over the sphere. Both maps preserve area.
+enum class DirectionMap {
+  Cylinder,    ///< (cos theta + 1)/2 and phi/(2 pi) about z [Müller et al. 2017, Sec. 3.2]
+  Octahedral,  ///< equal-area octahedron [Clarberg 2008]
+};
+
+/// How the sampled density is sharpened against the BSDF before it is sampled [Karlík et al. 2019].
+enum class CompensationForm {
+  None,             ///< the learned density as it is
+  WaterFilling,     ///< exact optimum max(alpha b, t/lambda) for uniform b
+  ClipRenormalise,  ///< published form: clip t/T - alpha b at zero and renormalise
+};
+
+struct CompensationSettings {
+  CompensationForm form = CompensationForm::None;
+  /// Factor on the BSDF share that is assumed, in [0, 1]. 0 leaves the density as it is.
+  float strength = 1.0f;
+};
+
+/// Settings of the SD-tree and of the density that is sampled from it.
+struct FieldSettings {
+  DirectionMap directionMap = DirectionMap::Cylinder;
+
+  /// A spatial leaf splits when its samples of the last iteration exceed
+  /// sTreeThreshold * sqrt(passes of that iteration * samples per pass / 4). Range: >= 1.
+  double sTreeThreshold = 12000.0;
+  /// Refinement of the spatial tree stops (and stats() says so) once the field holds this many bytes. 0: no cap.
+  std::size_t maxMemoryBytes = 0;
+
+  /// A quadtree cell is subdivided when it holds more than this share of the leaf's flux. Range: (0, 1).
+  float dTreeThreshold = 0.01f;
+  /// Depth cap of the quadtrees. Range: [1, 20].
+  int maxDTreeDepth = 20;
+
+  /// Probability of sampling the BSDF rather than the guide. Range: (0, 1].
+  float bsdfSamplingFraction = 0.5f;
+
+  CompensationSettings compensation;
+
+  /// The algorithm of the paper [Müller et al. 2017]: no compensation, fixed fraction one half.
+  static FieldSettings mueller2017() { return {}; }
+
+  /// Ok, or which field is out of range.
+  Status validate() const;
+};
+
+}  // namespace guiding

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <guiding/field.h>
+#include <guiding/schedule.h>
+#include <guiding/settings.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "film/film.h"
+#include "scene/scene.h"
+
+namespace pt {
+
+enum class MisHeuristic { Balance, Power };
+
+/// A guided renderer's settings: the field, and the schedule that trains it.
+struct GuidingSettings {
+  guiding::FieldSettings field;
+  guiding::ScheduleSettings schedule;
+};
+
+struct AovSelection {
+  bool albedo = false, normal = false, depth = false, variance = false;
+  bool any() const { return albedo || normal || depth || variance; }
+};
+
+struct RenderSettings {
+  int width = 0, height = 0;
+  IntegratorDescription path;
+  ReconstructionFilter filter = ReconstructionFilter::Box;
+  SamplerKind sampler = SamplerKind::Independent;
+  std::uint64_t seed = 0;
+  int threads = 0;  ///< 0: all that the machine has
+
+  /// Exactly one budget is positive. Seconds are wall-clock and include training, tree building and freezing.
+  std::int64_t spp = 0;
+  double seconds = 0;
+
+  bool nee = true;
+  MisHeuristic heuristic = MisHeuristic::Balance;
+  AovSelection aovs;
+
+  std::optional<GuidingSettings> guiding;          ///< none: unguided
+  bool trainOnly = false;                          ///< the final iteration is recorded and learned too
+};
+
+/// One iteration (an unguided render is one iteration).
+struct IterationReport {
+  int index = 0;
+  std::int64_t spp = 0;
+  double seconds = 0;       ///< wall-clock of all below
+  double trainSeconds = 0;  ///< accumulate
+  double freezeSeconds = 0; ///< endIteration
+  double variance = 0;      ///< as guiding::IterationOutcome
+  double weight = 0;        ///< in the final picture
+};
+
+struct RenderCounters {
+  std::uint64_t paths = 0, rays = 0, shadowRays = 0;
+  std::uint64_t scatterings = 0, guidedScatterings = 0;  ///< guided: a guide was mixed in at the vertex
+  std::uint64_t rejectedSamples = 0;                     ///< non-finite or negative path values, splatted as black
+};
+
+struct AovImages {
+  std::optional<Image> albedo, normal, depth, variance;
+};
+
+struct RenderResult {
+  Image image;
+  AovImages aovs;
+  std::vector<IterationReport> iterations;
+  RenderCounters counters;
+  double seconds = 0;
+  double cpuSeconds = 0;
+  std::size_t peakRecordBytes = 0;  ///< largest memory of the sample buffers
+  bool interrupted = false;
+  std::optional<guiding::Field> field;
+};
+
+/// What an observer may look at after each pass.
+struct RenderProgress {
+  int iteration = 0;
+  bool isFinal = false;
+  std::int64_t sppDone = 0, sppTotal = 0;  ///< total 0 under a time budget
+  double secondsDone = 0, secondsBudget = 0;
+};
+
+struct RenderHooks {
+  /// Called on the rendering thread after each pass; its time is not counted in any of the seconds.
+  std::function<void(const RenderProgress&)> onPass;
+  /// The picture a user would get if the run ended now (iterations combined); called after a pass when `wantsImage` says so.
+  std::function<bool(const RenderProgress&)> wantsImage;
+  std::function<void(const RenderProgress&, const Image&)> onImage;
+  /// Set from anywhere to finish the current pass and return what there is.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// Renders. `pretrained` is used from the first iteration on and goes on learning. Throws InputError for impossible settings.
+RenderResult render(const Scene& scene, const RenderSettings& settings, const RenderHooks& hooks = {},
+                    std::optional<guiding::Field> pretrained = std::nullopt);
+
+}  // namespace pt

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "scene/scene_description.h"
+
+namespace pt {
+
+struct LoadOptions {
+  bool skipUnsupported = false;                      ///< leave out what is not supported and list it instead of failing
+  std::map<std::string, std::string> variables;      ///< $name = value, for Mitsuba files
+};
+
+/// Loads a scene by its ending: .json (ours) or .xml (Mitsuba 0.5 to 3). Throws InputError.
+SceneDescription loadScene(const std::filesystem::path& file, const LoadOptions& options = {});
+
+}  // namespace pt

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <guiding/mixture.h>
+
+#include <memory>
+#include <vector>
+
+#include "core/types.h"
+#include "scene/interaction.h"
+#include "scene/scene_description.h"
+
+namespace pt {
+
+/// Value and density for a pair of directions; delta lobes take no part.
+using BsdfEvaluation = guiding::BsdfEvaluation<Spectrum>;
+
+/// A sampled direction, local frame.
+struct BsdfSample {
+  Vec3 wi;
+  Spectrum weight{0.0f};  ///< BSDF * |cos| / pdf; black: the sample failed
+  float pdf = 0;          ///< per solid angle (the density evaluate() returns); for a delta lobe the probability of choosing it
+  float eta = 1;          ///< relative index of refraction crossed by the sample (1 for reflection), for roulette
+  bool isDelta = false;
+};
+
+/// A BSDF whose parameters may vary over the surface. Directions are in the local shading frame, wo towards the camera, wi towards
+/// the light; values carry radiance and include |cos(wi)| and, for refraction, Mitsuba's 1/eta^2. Immutable, thread-safe.
+class Material {
+ public:
+  /// What the material can do, known when it is built.
+  struct Traits {
+    bool hasSmooth = false;
+    bool hasDelta = false;
+    bool transmits = false;
+  };
+
+  virtual ~Material() = default;
+
+  const Traits& traits() const noexcept { return m_traits; }
+
+  /// Smooth lobes only.
+  virtual BsdfEvaluation evaluate(const SurfaceInteraction& si, const Vec3& wo, const Vec3& wi) const noexcept = 0;
+
+  /// uLobe in [0,1) chooses among lobes, u in [0,1)^2 the direction.
+  virtual BsdfSample sample(const SurfaceInteraction& si, const Vec3& wo, float uLobe, const Vec2& u) const noexcept = 0;
+
+  /// Total reflectance for a denoiser's albedo layer, in [0, 1].
+  virtual Spectrum albedo(const SurfaceInteraction& si) const noexcept = 0;
+
+ protected:
+  explicit Material(const Traits& traits) : m_traits(traits) {}
+
+ private:
+  Traits m_traits;
+};
+
+/// One Material per description, in order. Throws InputError (with the description's source) for impossible parameters.
+std::vector<std::unique_ptr<Material>> createMaterials(const SceneDescription& description);
+
+}  // namespace pt

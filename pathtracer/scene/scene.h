@@ -1,0 +1,81 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cameras/camera.h"
+#include "core/ray.h"
+#include "core/types.h"
+#include "lights/light.h"
+#include "materials/material.h"
+#include "scene/interaction.h"
+#include "scene/scene_description.h"
+
+namespace pt {
+
+/// What the scene contains; everything absent is left out at no cost.
+struct SceneFeatures {
+  bool hasSampleableLights = false;  ///< something for light sampling to find
+  bool hasEnvironment = false;
+  bool hasSmoothMaterials = false;   ///< something for guiding to learn
+  bool hasTextures = false;
+  bool hasInstances = false;
+  std::vector<std::string> present;  ///< e.g. "area lights (5)"
+  std::vector<std::string> leftOut;  ///< e.g. "environment sampling (no environment)"
+};
+
+struct SceneCounts {
+  std::size_t triangles = 0, primitives = 0, instances = 0, lights = 0, materials = 0;
+  std::size_t memoryBytes = 0;  ///< geometry and accelerator
+};
+
+/// A light chosen for next-event estimation and the point sampled on it.
+struct DirectSample : LightSample {
+  bool isDelta = false;  ///< pdf already includes the probability of choosing the light
+};
+
+/// Built, immutable and thread-safe.
+class Scene {
+ public:
+  /// Throws InputError for a description that cannot be built (no camera, non-finite vertex, empty mesh, light of no area, ...).
+  explicit Scene(const SceneDescription& description);
+  ~Scene();
+
+  /// Nearest surface along the ray. `si` is complete on true.
+  bool intersect(const Ray& ray, SurfaceInteraction& si) const noexcept;
+
+  /// True if anything lies within (tMin, tMax).
+  bool occluded(const Ray& ray) const noexcept;
+
+  /// A ray leaving the surface towards `direction`, its origin moved off the surface by its numerical error bound.
+  Ray spawnRay(const SurfaceInteraction& si, const Vec3& direction) const noexcept;
+
+  /// Whether light sampled from `si` arrives.
+  bool visible(const SurfaceInteraction& si, const LightSample& light) const noexcept;
+
+  /// Chooses a light by power and samples it. u in [0,1)^2. pdf 0: no sample.
+  DirectSample sampleDirect(const Vec3& p, float uLight, const Vec2& u) const noexcept;
+  /// Density of sampleDirect for the emitter that a ray from `p` met at `hit`.
+  float pdfDirect(const Vec3& p, const SurfaceInteraction& hit) const noexcept;
+  /// Density of sampleDirect for a ray that left the scene towards wi.
+  float pdfEnvironment(const Vec3& wi) const noexcept;
+
+  /// Null without an environment.
+  const EnvironmentLight* environment() const noexcept { return m_environment; }
+  const Camera& camera() const noexcept { return *m_camera; }
+  const Box3& bounds() const noexcept { return m_bounds; }
+  const SceneFeatures& features() const noexcept { return m_features; }
+  const SceneCounts& counts() const noexcept { return m_counts; }
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> m_impl;
+  std::unique_ptr<Camera> m_camera;
+  const EnvironmentLight* m_environment = nullptr;
+  Box3 m_bounds;
+  SceneFeatures m_features;
+  SceneCounts m_counts;
+};
+
+}  // namespace pt

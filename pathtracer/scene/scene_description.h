@@ -1,0 +1,206 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/types.h"
+
+/// What a loader yields and a Scene is built from: plain data, no behaviour.
+namespace pt {
+
+inline constexpr int kNone = -1;
+
+/// Where in the input a thing was described, for messages: "file.xml:12" or "scene.json#/materials/3".
+using SourceLocation = std::string;
+
+// ---------------------------------------------------------------- textures and parameters
+
+/// Index into SceneDescription::textures, or a constant.
+struct SpectrumParameter {
+  Spectrum value{0.5f};
+  int texture = kNone;
+
+  SpectrumParameter() = default;
+  SpectrumParameter(const Spectrum& v) : value(v) {}
+  SpectrumParameter(float v) : value(v) {}
+};
+struct FloatParameter {
+  float value = 0;
+  int texture = kNone;
+
+  FloatParameter() = default;
+  FloatParameter(float v) : value(v) {}
+};
+
+struct BitmapTexture {
+  std::filesystem::path file;
+  bool linear = false;  ///< values are linear already (roughness, opacity, HDR), else sRGB
+};
+struct CheckerboardTexture {
+  Spectrum color0{0.4f}, color1{0.2f};
+};
+struct TextureDescription {
+  std::variant<BitmapTexture, CheckerboardTexture> kind;
+  Vec2 uvScale{1, 1}, uvOffset{0, 0};
+  SourceLocation source;
+};
+
+// ---------------------------------------------------------------- materials
+
+enum class MicrofacetDistribution { Beckmann, Ggx };
+
+struct Roughness {
+  FloatParameter alpha{0.1f};  ///< root-mean-square slope of the microfacets; > 0
+  MicrofacetDistribution distribution = MicrofacetDistribution::Beckmann;
+  bool sampleVisible = true;
+};
+
+struct DiffuseMaterial {
+  SpectrumParameter reflectance{0.5f};
+};
+/// Smooth without, rough with `roughness`. A perfect mirror has eta 0, k 1.
+struct ConductorMaterial {
+  Spectrum eta{0.0f}, k{1.0f};  ///< relative to the exterior
+  SpectrumParameter specularReflectance{1.0f};
+  std::optional<Roughness> roughness;
+};
+struct DielectricMaterial {
+  float intIor = 1.5046f, extIor = 1.000277f;
+  SpectrumParameter specularReflectance{1.0f}, specularTransmittance{1.0f};
+  std::optional<Roughness> roughness;
+};
+struct ThinDielectricMaterial {
+  float intIor = 1.5046f, extIor = 1.000277f;
+  SpectrumParameter specularReflectance{1.0f}, specularTransmittance{1.0f};
+};
+struct PlasticMaterial {
+  float intIor = 1.49f, extIor = 1.000277f;
+  SpectrumParameter diffuseReflectance{0.5f}, specularReflectance{1.0f};
+  bool nonlinear = false;  ///< account for colour shifts of light that bounces inside
+  std::optional<Roughness> roughness;
+};
+/// Indices into SceneDescription::materials; `back` may equal `front`.
+struct TwoSidedMaterial {
+  int front = kNone, back = kNone;
+};
+
+struct MaterialDescription {
+  std::string name;
+  std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial, PlasticMaterial, TwoSidedMaterial>
+      kind;
+  SourceLocation source;
+};
+
+// ---------------------------------------------------------------- shapes
+
+/// Triangles with optional per-vertex normals and texture coordinates (empty when absent).
+struct TriangleMesh {
+  std::vector<Vec3> positions;
+  std::vector<Vec3> normals;
+  std::vector<Vec2> uvs;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+struct MeshShape {
+  std::shared_ptr<const TriangleMesh> mesh;  ///< shared by every shape that shows it
+  bool faceNormals = false;                  ///< ignore the vertex normals
+};
+struct SphereShape {
+  Vec3 center{0, 0, 0};
+  float radius = 1;
+};
+/// The square [-1,1]^2 of the xy plane, normal +z.
+struct RectangleShape {};
+/// The unit disk of the xy plane, normal +z.
+struct DiskShape {};
+/// [-1,1]^3, normals outwards.
+struct CubeShape {};
+/// A copy of SceneDescription::groups[group].
+struct InstanceShape {
+  int group = kNone;
+};
+
+struct ShapeDescription {
+  std::string name;
+  std::variant<MeshShape, SphereShape, RectangleShape, DiskShape, CubeShape, InstanceShape> kind;
+  Matrix4 toWorld;                     ///< row vectors: world = object * toWorld
+  bool flipNormals = false;
+  int material = kNone;                ///< none: reflects nothing
+  std::optional<SpectrumParameter> emission;  ///< radiance; one-sided, on the side of the shading normal
+  SourceLocation source;
+};
+
+/// Shapes that are instanced together; in a space of their own. They cannot emit.
+struct GroupDescription {
+  std::string name;
+  std::vector<ShapeDescription> shapes;
+};
+
+// ---------------------------------------------------------------- lights that are not shapes
+
+struct PointLight {
+  Vec3 position{0, 0, 0};
+  Spectrum intensity{1.0f};  ///< power per unit solid angle
+};
+struct ConstantEnvironment {
+  Spectrum radiance{1.0f};
+};
+struct LightDescription {
+  std::variant<PointLight, ConstantEnvironment> kind;
+  SourceLocation source;
+};
+
+// ---------------------------------------------------------------- camera, film, integrator
+
+enum class FovAxis { X, Y, Smaller, Larger, Diagonal };
+
+/// Looks down its own +z with +x to the image's left and +y up, as Mitsuba's.
+struct PerspectiveCamera {
+  Matrix4 toWorld;
+  float fovDegrees = 45;
+  FovAxis fovAxis = FovAxis::X;
+  float nearClip = 1e-4f;
+  float farClip = std::numeric_limits<float>::infinity();
+};
+
+enum class ReconstructionFilter { Box, Tent, Gaussian };
+
+struct FilmDescription {
+  int width = 768, height = 576;
+  ReconstructionFilter filter = ReconstructionFilter::Box;
+};
+
+enum class SamplerKind { Independent, Sobol };
+
+struct IntegratorDescription {
+  int maxDepth = -1;  ///< path length in edges, 1 is emission only; -1: unbounded
+  int rrDepth = 5;    ///< edges from which Russian roulette may end the path
+  bool strictNormals = false;
+  bool hideEmitters = false;
+};
+
+struct SceneDescription {
+  std::string name;                 ///< shown to people
+  std::filesystem::path file;
+  std::optional<PerspectiveCamera> camera;
+  FilmDescription film;
+  SamplerKind sampler = SamplerKind::Independent;
+  int spp = 64;
+  IntegratorDescription integrator;
+  std::vector<TextureDescription> textures;
+  std::vector<MaterialDescription> materials;
+  std::vector<ShapeDescription> shapes;
+  std::vector<GroupDescription> groups;
+  std::vector<LightDescription> lights;
+  std::vector<std::string> skipped;  ///< what --skip-unsupported left out, with its place
+  std::vector<std::string> notes;    ///< choices the loader made that its user should know
+};
+
+}  // namespace pt
