@@ -29,6 +29,7 @@ class PathRecorder {
     Imath::V3f bsdfCos;       ///< BSDF * |cos| alone, per channel; unused for delta events
     float pdf = 0;            ///< density of wi that was really used (the mixture), per solid angle
     float bsdfPdf = 0;        ///< the BSDF sampler's own density of wi, per solid angle
+    float guidePdf = 0;       ///< the guide's density of wi, per solid angle; 0 without a guide
     bool isDelta = false;     ///< delta events carry radiance on but are not learned from
   };
   void scatter(const Scatter& event) { m_vertices.push_back({event, {0, 0, 0}, {0, 0, 0}, 1.0f, kNoDistance}); }
@@ -68,7 +69,6 @@ class PathRecorder {
     float distance;
   };
   std::vector<Vertex> m_vertices;
-  std::vector<RadianceSample> m_scratch;
 };
 
 }  // namespace guiding
