@@ -18,13 +18,13 @@ using BsdfEvaluation = guiding::BsdfEvaluation<Spectrum>;
 struct BsdfSample {
   Vec3 wi;
   Spectrum weight{0.0f};  ///< BSDF * |cos| / pdf; black: the sample failed
-  float pdf = 0;          ///< per solid angle (the density evaluate() returns); for a delta lobe the probability of choosing it
-  float eta = 1;          ///< relative index of refraction crossed by the sample (1 for reflection), for roulette
+  float pdf = 0;  ///< per solid angle (the density evaluate() returns); for a delta lobe the probability of choosing it
   bool isDelta = false;
 };
 
-/// A BSDF whose parameters may vary over the surface. Directions are in the local shading frame, wo towards the camera, wi towards
-/// the light; values carry radiance and include |cos(wi)| and, for refraction, Mitsuba's 1/eta^2. Immutable, thread-safe.
+/// A BSDF whose parameters may vary over the surface. Directions are in the local shading frame, wo towards the camera,
+/// wi towards the light; values carry radiance and include |cos(wi)| and, for refraction, Mitsuba's 1/eta^2. Immutable,
+/// thread-safe.
 class Material {
  public:
   /// What the material can do, known when it is built.
@@ -32,17 +32,27 @@ class Material {
     bool hasSmooth = false;
     bool hasDelta = false;
     bool transmits = false;
+    float eta = 1;  ///< index of refraction behind the surface over the one before it (the side of the normal); 1 where
+                    ///< no ray bends
   };
 
   virtual ~Material() = default;
 
   const Traits& traits() const noexcept { return m_traits; }
 
+  /// Relative index of refraction that a scattering from wo to wi crosses; 1 for reflection. Told by the sides alone,
+  /// so that it also holds for directions that the material did not sample itself.
+  float etaCrossed(const Vec3& wo, const Vec3& wi) const noexcept {
+    if (wo.z * wi.z >= 0) return 1;
+    return wo.z > 0 ? m_traits.eta : 1 / m_traits.eta;
+  }
+
   /// Smooth lobes only.
   virtual BsdfEvaluation evaluate(const SurfaceInteraction& si, const Vec3& wo, const Vec3& wi) const noexcept = 0;
 
   /// uLobe in [0,1) chooses among lobes, u in [0,1)^2 the direction.
-  virtual BsdfSample sample(const SurfaceInteraction& si, const Vec3& wo, float uLobe, const Vec2& u) const noexcept = 0;
+  virtual BsdfSample sample(const SurfaceInteraction& si, const Vec3& wo, float uLobe,
+                            const Vec2& u) const noexcept = 0;
 
   /// Total reflectance for a denoiser's albedo layer, in [0, 1].
   virtual Spectrum albedo(const SurfaceInteraction& si) const noexcept = 0;
