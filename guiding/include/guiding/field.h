@@ -24,6 +24,8 @@ namespace guiding {
 /// same bits on any number of threads. Several fields may live side by side.
 class Field {
  public:
+  struct State;  ///< private to the library
+
   /// A field over `bounds` (world space; enlarged to a cube). Fails on an empty or non-finite box or invalid settings.
   static Result<Field> create(const Imath::Box3f& bounds, const FieldSettings& settings);
 
@@ -54,9 +56,8 @@ class Field {
   Status validate() const;
 
  private:
-  friend class FieldSerializer;
-  struct State;
   explicit Field(std::unique_ptr<State> state) noexcept;
+  friend class FieldFile;
   std::unique_ptr<State> m_state;
 };
 

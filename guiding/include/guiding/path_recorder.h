@@ -32,7 +32,7 @@ class PathRecorder {
     float guidePdf = 0;       ///< the guide's density of wi, per solid angle; 0 without a guide
     bool isDelta = false;     ///< delta events carry radiance on but are not learned from
   };
-  void scatter(const Scatter& event) { m_vertices.push_back({event, {0, 0, 0}, {0, 0, 0}, 1.0f, kNoDistance}); }
+  void scatter(const Scatter& event) { m_vertices.push_back({event, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 1.0f, kNoDistance}); }
 
   /// Light sampled at the vertex that the last scatter() reached (or, before any scatter, at the first vertex, which no
   /// sample learns from). `contribution` is BSDF * cos * Le * misWeight / pdf at that vertex, without the throughput.
@@ -65,6 +65,7 @@ class PathRecorder {
     Scatter event;
     Imath::V3f emission;  ///< arrives at this vertex from the end of its ray
     Imath::V3f direct;    ///< scattered towards this vertex at the end of its ray by light sampling there
+    Imath::V3f incident;  ///< filled by finish()
     float survivalProbability;
     float distance;
   };

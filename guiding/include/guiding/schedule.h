@@ -9,17 +9,17 @@ namespace guiding {
 
 /// How the pictures of the iterations become one.
 enum class SampleCombination {
-  Discard,          ///< the last iteration's picture alone [Müller et al. 2017]
-  Automatic,        ///< as Discard, but training ends when more of it would raise the extrapolated final variance [ibid., Sec. 4.3]
-  InverseVariance,  ///< the last four iterations weighted by their inverse mean pixel variance [Müller 2019]
+  Discard,          ///< one iteration's picture: the last one, or the one before where the last was cut short [Müller et al. 2017]
+  Automatic,        ///< as Discard, but training ends and the rest of the budget goes to the density at hand as soon as another
+                    ///< doubling would raise the extrapolated final variance [ibid., Sec. 4.3]
+  InverseVariance,  ///< the last iterations weighted by the inverse of their mean pixel variance [Müller 2019]
 };
 
 /// Iterations of 2^k passes of `sppPerPass` samples per pixel until the budget is spent.
 struct ScheduleSettings {
-  int sppPerPass = 4;
+  int sppPerPass = 4;  ///< range: [1, 2^20]
   SampleCombination combination = SampleCombination::Automatic;
-  /// Iterations whose pictures InverseVariance combines. Range: >= 1.
-  int combinedIterations = 4;
+  int combinedIterations = 4;  ///< how many of the last iterations InverseVariance combines; >= 1
 
   static ScheduleSettings mueller2017() { return {}; }
   Status validate() const;
@@ -27,37 +27,51 @@ struct ScheduleSettings {
 
 /// What the schedule asks the renderer to do next.
 struct IterationPlan {
-  int index = 0;         ///< k
-  std::int64_t spp = 0;  ///< samples per pixel of this iteration; the renderer may stop earlier when time is over
-  bool isFinal = false;  ///< its samples need not be recorded: no iteration follows
+  int index = 0;
+  std::int64_t spp = 0;       ///< samples per pixel; 0: the budget is spent. The final one of a time budget runs until time is over.
+  bool isFinal = false;       ///< no iteration follows, so its samples need not be recorded
+  bool keepsDensity = false;  ///< goes on with the density of the iteration before: do not call Field::endIteration() first
 };
 
 /// What an iteration came to, as the renderer measured it.
 struct IterationOutcome {
-  std::int64_t spp = 0;     ///< samples per pixel rendered
-  double variance = 0;      ///< mean over pixels of the unbiased variance of the iteration's pixel means, luminance
-  double seconds = 0;       ///< wall-clock, training included
+  std::int64_t spp = 0;  ///< samples per pixel rendered
+  double variance = 0;   ///< mean over pixels of the unbiased variance of the iteration's pixel means, luminance; 0 if unknown
+  double seconds = 0;    ///< wall-clock, training included
 };
 
 /// Doubling iterations under a budget in samples per pixel or in seconds.
 class TrainingSchedule {
  public:
+  static constexpr std::int64_t kUntilTimeIsOver = std::int64_t(1) << 40;
+
   /// Exactly one of the budgets is positive.
   TrainingSchedule(const ScheduleSettings& settings, std::int64_t sppBudget, double secondsBudget);
 
-  /// The next iteration, given what has been reported so far; spp == 0: the budget is spent.
+  /// The next iteration, given what has been reported so far.
   IterationPlan next() const;
-  void report(const IterationOutcome& outcome);
 
-  /// Weight of each reported iteration's picture in the final one; sums to 1.
+  /// Tells how the iteration that next() planned came out.
+  void report(const IterationPlan& plan, const IterationOutcome& outcome);
+
+  /// Weight of each reported iteration's picture in the final one; sums to 1 (empty if nothing was rendered).
   std::vector<double> imageWeights() const;
 
  private:
+  struct Iteration {
+    IterationPlan plan;
+    IterationOutcome outcome;
+  };
+  double remainingBudget() const;
+  double costOf(const IterationOutcome& outcome) const;
+  bool trainingShouldEnd() const;
+  std::vector<double> lastWeights() const;
+  std::vector<double> inverseVarianceWeights() const;
+
   ScheduleSettings m_settings;
   std::int64_t m_sppBudget;
   double m_secondsBudget;
-  std::vector<IterationOutcome> m_outcomes;
-  bool m_finalPlanned = false;
+  std::vector<Iteration> m_iterations;
 };
 
 }  // namespace guiding

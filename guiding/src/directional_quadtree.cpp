@@ -1,0 +1,51 @@
+#include "directional_quadtree.h"
+
+namespace guiding {
+
+double DirectionalQuadtree::build() {
+  // Parents stand before their children, so a backward sweep meets children first.
+  for (std::size_t i = m_nodes.size(); i-- > 0;) {
+    Node& node = m_nodes[i];
+    for (int c = 0; c < 4; ++c) {
+      if (node.links.isLeaf(c)) continue;
+      const auto& s = m_nodes[node.links.childIndex(c)].sum;
+      node.sum[c] = (s[0] + s[1]) + (s[2] + s[3]);
+    }
+  }
+  const auto& s = m_nodes[0].sum;
+  return (s[0] + s[1]) + (s[2] + s[3]);
+}
+
+DirectionalQuadtree DirectionalQuadtree::refined(double total, double threshold, int maxDepth) const {
+  constexpr std::uint32_t kBelowLeaf = ~0u;
+  struct Cell {
+    std::uint32_t source;      ///< node of this tree, or kBelowLeaf
+    std::array<double, 4> sum;
+    int depth;                 ///< of the node's cells
+  };
+
+  DirectionalQuadtree next;
+  std::vector<Cell> cells{{0, m_nodes[0].sum, 1}};  // parallel to next.m_nodes
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Cell cell = cells[i];
+    QuadtreeLinks links{std::uint32_t(cells.size()), 0};
+    for (int c = 0; c < 4; ++c) {
+      if (cell.depth >= maxDepth || !(cell.sum[c] > threshold * total)) continue;
+      links.mask |= 1u << c;
+      const bool continues = cell.source != kBelowLeaf && !m_nodes[cell.source].links.isLeaf(c);
+      if (continues) {
+        const std::uint32_t child = m_nodes[cell.source].links.childIndex(c);
+        cells.push_back({child, m_nodes[child].sum, cell.depth + 1});
+      } else {
+        const double quarter = cell.sum[c] / 4;
+        cells.push_back({kBelowLeaf, {quarter, quarter, quarter, quarter}, cell.depth + 1});
+      }
+      next.m_nodes.emplace_back();
+    }
+    next.m_nodes[i].links = links;
+  }
+  next.m_nodes.shrink_to_fit();
+  return next;
+}
+
+}  // namespace guiding

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "sphere_map.h"
+
+namespace guiding {
+
+/// Four child slots of a quadtree node. Children that are themselves subdivided stand together in the node array.
+struct QuadtreeLinks {
+  std::uint32_t first = 0;  ///< index of the first subdivided child
+  std::uint32_t mask = 0;   ///< bit c: child c is subdivided
+
+  bool isLeaf(int child) const noexcept { return !(mask >> child & 1u); }
+  std::uint32_t childIndex(int child) const noexcept {
+    return first + std::uint32_t(__builtin_popcount(mask & ((1u << child) - 1u)));
+  }
+};
+
+/// The quadtree that learns: flux per cell, as sums over recorded samples. Never compensated, never sampled.
+class DirectionalQuadtree {
+ public:
+  struct Node {
+    std::array<double, 4> sum{};  ///< filled for leaf cells while learning; for all cells after build()
+    QuadtreeLinks links;
+  };
+
+  /// One node: four cells.
+  DirectionalQuadtree() : m_nodes(1) {}
+
+  /// Adds `value` to the leaf cell that contains the point.
+  void splat(SquarePoint point, double value) noexcept {
+    std::uint32_t index = 0;
+    for (int depth = 0;; ++depth) {
+      Node& node = m_nodes[index];
+      const int cell = point.cellAt(depth);
+      if (node.links.isLeaf(cell)) {
+        node.sum[cell] += value;
+        return;
+      }
+      index = node.links.childIndex(cell);
+    }
+  }
+
+  /// Sums the leaf cells into their parents and returns the total.
+  double build();
+
+  /// The tree to learn into next: cells with more than `threshold` of the total flux are subdivided, up to `maxDepth`; those
+  /// with less are merged; below a former leaf the flux counts as evenly spread [Müller et al. 2017, Sec. 3.2].
+  /// All sums are zero. Requires build() and a positive total.
+  DirectionalQuadtree refined(double total, double threshold, int maxDepth) const;
+
+  const std::vector<Node>& nodes() const noexcept { return m_nodes; }
+  std::vector<Node>& nodes() noexcept { return m_nodes; }
+  std::size_t memoryBytes() const noexcept { return m_nodes.capacity() * sizeof(Node); }
+
+ private:
+  std::vector<Node> m_nodes;  ///< root first, parents before children
+};
+
+}  // namespace guiding

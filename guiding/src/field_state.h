@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "directional_quadtree.h"
+#include "guiding/field.h"
+#include "guiding_density.h"
+#include "spatial_tree.h"
+
+namespace guiding {
+
+/// One leaf of the spatial tree.
+struct SpatialLeaf {
+  DirectionalQuadtree building;                          ///< learns during this iteration
+  std::uint64_t sampleCount = 0;                         ///< of this iteration
+};
+
+struct Field::State {
+  State(const Imath::Box3f& bounds, const FieldSettings& s) : settings(s), tree(bounds), leaves(1), density(s.directionMap) {}
+
+  FieldSettings settings;
+  SpatialTree tree;
+  std::vector<SpatialLeaf> leaves;                 ///< by leaf index of `tree`
+  GuidingDensity density;                          ///< frozen: what bind() offers
+  std::vector<std::uint32_t> densityOfLeaf{GuidingDensity::kNoGuide};  ///< by leaf index; leaves split from one share its tree
+
+  int iterations = 0;
+  std::uint64_t samples = 0, droppedSamples = 0, outsideSamples = 0;
+  bool memoryCapReached = false;
+  bool hasGuide = false;
+
+  std::size_t memoryBytes() const;
+};
+
+}  // namespace guiding

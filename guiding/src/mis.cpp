@@ -1,0 +1,110 @@
+#include "guiding/mis.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace guiding {
+
+namespace {
+
+/// Sum with a running correction [Neumaier 1974]: 2^20 cells of very different size still add up to the last bits.
+class ExactSum {
+ public:
+  void add(double x) noexcept {
+    const double t = m_sum + x;
+    m_correction += std::abs(m_sum) >= std::abs(x) ? (m_sum - t) + x : (x - t) + m_sum;
+    m_sum = t;
+  }
+  double value() const noexcept { return m_sum + m_correction; }
+
+ private:
+  double m_sum = 0, m_correction = 0;
+};
+
+/// Largest mass; negative if any mass of either technique is unusable.
+template <class Real>
+double largestMass(std::span<const Real> t, std::span<const Real> b) noexcept {
+  double largest = 0;
+  for (std::size_t j = 0; j < t.size(); ++j) {
+    if (!(t[j] >= 0 && t[j] <= std::numeric_limits<Real>::max())) return -1;
+    if (!(b[j] >= 0 && b[j] <= std::numeric_limits<Real>::max())) return -1;
+    largest = std::max(largest, double(t[j]));
+  }
+  return largest;
+}
+
+/// Solves sum_j max(alpha b_j, t_j/lambda) = alpha sum_j b_j + (1 - alpha) for lambda, with t scaled to a total of 1.
+/// Dropping every cell with t <= lambda alpha b raises lambda, so dropped cells never return and the loop ends.
+template <class Real>
+double waterLevel(std::span<const Real> t, std::span<const Real> b, double alpha, double scale) noexcept {
+  double lambda = 0;
+  std::size_t activeBefore = t.size() + 1;
+  for (;;) {
+    ExactSum activeT, activeB;
+    std::size_t active = 0;
+    for (std::size_t j = 0; j < t.size(); ++j) {
+      const double tj = t[j] * scale;
+      if (!(tj > lambda * alpha * b[j])) continue;
+      activeT.add(tj);
+      activeB.add(b[j]);
+      ++active;
+    }
+    if (active == activeBefore || active == 0) return lambda;
+    activeBefore = active;
+    lambda = activeT.value() / ((1 - alpha) + alpha * activeB.value());
+  }
+}
+
+template <class Real>
+CompensationResult solve(std::span<const Real> t, std::span<const Real> b, double alpha, CompensationForm form,
+                         std::span<Real> q) noexcept {
+  assert(t.size() == b.size() && t.size() == q.size());
+  const auto nothing = [&] {
+    std::fill(q.begin(), q.end(), Real(0));
+    return CompensationResult{0, 0, true};
+  };
+  const double largest = largestMass(t, b);
+  if (!(largest > 0) || !(alpha >= 0 && alpha < 1)) return nothing();
+
+  // Scaled in two steps, so that neither 1e300 nor a subnormal total leaves the range of double.
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const double toUnit = std::ldexp(1.0, std::clamp(-exponent, -1022, 1022));
+  ExactSum total;
+  for (const Real tj : t) total.add(tj * toUnit);
+  const double scale = toUnit / total.value();
+  if (!std::isfinite(scale)) return nothing();
+
+  CompensationResult result;
+  result.lambda = form == CompensationForm::WaterFilling ? waterLevel(t, b, alpha, scale) : 1.0;
+  const double floor = form == CompensationForm::None ? 0.0 : alpha;
+  ExactSum kept, removed;
+  for (std::size_t j = 0; j < t.size(); ++j) {
+    const double tj = t[j] * scale;
+    const double rest = tj / result.lambda - floor * b[j];
+    if (!(rest > 0)) removed.add(tj);
+    kept.add(std::max(0.0, rest));
+    q[j] = Real(std::max(0.0, rest));
+  }
+  result.removedMass = std::clamp(removed.value(), 0.0, 1.0);
+  if (!(kept.value() > 0)) return nothing();
+  const double normalise = 1 / kept.value();
+  for (Real& qj : q) qj = Real(qj * normalise);
+  return result;
+}
+
+}  // namespace
+
+CompensationResult compensate(std::span<const float> t, std::span<const float> b, float alpha, CompensationForm form,
+                              std::span<float> q) noexcept {
+  return solve<float>(t, b, alpha, form, q);
+}
+
+CompensationResult compensate(std::span<const double> t, std::span<const double> b, double alpha, CompensationForm form,
+                              std::span<double> q) noexcept {
+  return solve<double>(t, b, alpha, form, q);
+}
+
+}  // namespace guiding

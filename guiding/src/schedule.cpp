@@ -1,0 +1,114 @@
+#include "guiding/schedule.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace guiding {
+
+namespace {
+/// Below this many samples per pixel the variance estimates are too rough to end training on [Müller et al. 2017, authors' code].
+constexpr std::int64_t kAutomaticMinSpp = 256;
+}  // namespace
+
+Status ScheduleSettings::validate() const {
+  if (sppPerPass < 1 || sppPerPass > 1 << 20)
+    return Error{ErrorCode::InvalidArgument, "sppPerPass must lie in [1, 1048576]"};
+  if (combinedIterations < 1) return Error{ErrorCode::InvalidArgument, "combinedIterations must be at least 1"};
+  return Success{};
+}
+
+TrainingSchedule::TrainingSchedule(const ScheduleSettings& settings, std::int64_t sppBudget, double secondsBudget)
+    : m_settings(settings), m_sppBudget(sppBudget), m_secondsBudget(secondsBudget) {}
+
+double TrainingSchedule::costOf(const IterationOutcome& outcome) const {
+  return m_sppBudget > 0 ? double(outcome.spp) : outcome.seconds;
+}
+
+double TrainingSchedule::remainingBudget() const {
+  double remaining = m_sppBudget > 0 ? double(m_sppBudget) : m_secondsBudget;
+  for (const Iteration& i : m_iterations) remaining -= costOf(i.outcome);
+  return remaining;
+}
+
+IterationPlan TrainingSchedule::next() const {
+  IterationPlan plan;
+  plan.index = int(m_iterations.size());
+  const double remaining = remainingBudget();
+  if (!(remaining > 0) || (!m_iterations.empty() && m_iterations.back().plan.isFinal)) return plan;
+
+  const int doublings = std::min(plan.index, 30);
+  plan.spp = std::int64_t(m_settings.sppPerPass) << doublings;
+  const double expectedCost =
+      m_sppBudget > 0 ? double(plan.spp) : m_iterations.empty() ? 0.0 : 2 * m_iterations.back().outcome.seconds;
+
+  plan.keepsDensity = m_settings.combination == SampleCombination::Automatic && trainingShouldEnd();
+  // An iteration that would leave less than twice itself takes the rest: no tiny last iteration.
+  plan.isFinal = plan.keepsDensity || remaining - expectedCost < 2 * expectedCost;
+  if (plan.isFinal) plan.spp = m_sppBudget > 0 ? std::int64_t(remaining) : kUntilTimeIsOver;
+  return plan;
+}
+
+void TrainingSchedule::report(const IterationPlan& plan, const IterationOutcome& outcome) {
+  m_iterations.push_back({plan, outcome});
+}
+
+bool TrainingSchedule::trainingShouldEnd() const {
+  if (m_iterations.empty()) return false;
+  const double remaining = remainingBudget();
+  if (remaining < costOf(m_iterations.back().outcome)) return true;
+  if (m_iterations.size() < 2) return false;
+
+  std::int64_t spp = 0;
+  for (const Iteration& i : m_iterations) spp += i.outcome.spp;
+  if (spp < kAutomaticMinSpp) return false;
+  const auto varianceAtEnd = [this](const IterationOutcome& o, double budgetLeft) {
+    return o.variance * costOf(o) / (costOf(o) + budgetLeft);
+  };
+  const IterationOutcome& last = m_iterations.back().outcome;
+  const IterationOutcome& before = m_iterations[m_iterations.size() - 2].outcome;
+  if (!(last.variance > 0) || !(before.variance > 0)) return false;
+  return varianceAtEnd(last, remaining) > varianceAtEnd(before, remaining + costOf(last));
+}
+
+std::vector<double> TrainingSchedule::imageWeights() const {
+  if (m_iterations.empty()) return {};
+  return m_settings.combination == SampleCombination::InverseVariance ? inverseVarianceWeights() : lastWeights();
+}
+
+std::vector<double> TrainingSchedule::lastWeights() const {
+  std::vector<double> weights(m_iterations.size(), 0);
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < m_iterations.size(); ++i)
+    if (m_iterations[i].outcome.spp >= m_iterations[best].outcome.spp) best = i;
+  weights[best] = 1;
+
+  // Iterations that share a density are one run of samples.
+  const std::size_t last = m_iterations.size() - 1;
+  if (m_iterations[last].plan.keepsDensity && last > 0) {
+    const double a = double(m_iterations[last - 1].outcome.spp), b = double(m_iterations[last].outcome.spp);
+    weights[best] = 0;
+    weights[last - 1] = a / (a + b);
+    weights[last] = b / (a + b);
+  }
+  return weights;
+}
+
+std::vector<double> TrainingSchedule::inverseVarianceWeights() const {
+  const std::size_t count = m_iterations.size();
+  const std::size_t first = count - std::min<std::size_t>(count, std::size_t(m_settings.combinedIterations));
+  std::vector<double> weights(count, 0);
+  double total = 0;
+  for (std::size_t i = first; i < count; ++i) {
+    const double variance = m_iterations[i].outcome.variance;
+    weights[i] = variance > 0 ? 1 / variance : 0;
+    total += weights[i];
+  }
+  if (!(total > 0) || !std::isfinite(total)) {  // no variance known, or none at all: every sample counts the same
+    total = 0;
+    for (std::size_t i = first; i < count; ++i) total += weights[i] = double(m_iterations[i].outcome.spp);
+  }
+  for (double& w : weights) w = total > 0 ? w / total : 0;
+  return weights;
+}
+
+}  // namespace guiding

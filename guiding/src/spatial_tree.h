@@ -1,0 +1,80 @@
+#pragma once
+
+#include <ImathBox.h>
+#include <ImathVec.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace guiding {
+
+/// Binary tree over a cube: midpoint splits along x, y, z in turn [Müller et al. 2017, Sec. 3.1].
+///
+/// A position becomes one interleaved code whose bits, from the top, are the decisions from the root down.
+class SpatialTree {
+ public:
+  static constexpr int kBitsPerAxis = 21;
+  static constexpr int kMaxDepth = 3 * kBitsPerAxis;
+
+  /// One leaf, index 0. `bounds` is enlarged to a cube from its lower corner.
+  explicit SpatialTree(const Imath::Box3f& bounds);
+
+  /// Index of the leaf that contains the point; points outside belong to the nearest leaf.
+  std::uint32_t leafAt(const Imath::V3f& position) const noexcept {
+    std::uint64_t code = codeOf(position);
+    std::uint32_t node = 0;
+    while (!(m_nodes[node] & kLeafBit)) {
+      node = m_nodes[node] + std::uint32_t(code >> 63);
+      code <<= 1;
+    }
+    return m_nodes[node] & ~kLeafBit;
+  }
+
+  bool contains(const Imath::V3f& position) const noexcept { return m_bounds.intersects(position); }
+  const Imath::Box3f& bounds() const noexcept { return m_bounds; }  ///< the cube
+
+  std::uint32_t leafCount() const noexcept { return m_leafCount; }
+  std::size_t memoryBytes() const noexcept { return m_nodes.capacity() * sizeof(std::uint32_t); }
+  int maxDepth() const noexcept;
+
+  /// Replaces every leaf i by 2^levels[i] leaves. Returns for each new leaf the old leaf it came from; the first child of a
+  /// split leaf keeps its index.
+  std::vector<std::uint32_t> split(const std::vector<int>& levels);
+
+  /// Node words: kLeafBit | leaf index, or the index of the first of two children. For writing and reading fields.
+  const std::vector<std::uint32_t>& nodes() const noexcept { return m_nodes; }
+  /// False (and unchanged) if the words are no tree with leaves 0..n-1.
+  bool assignNodes(std::vector<std::uint32_t> nodes);
+
+  static constexpr std::uint32_t kLeafBit = 0x80000000u;
+
+ private:
+  std::uint64_t codeOf(const Imath::V3f& position) const noexcept;
+
+  Imath::Box3f m_bounds;
+  float m_scale;  ///< cells per unit length at full depth
+  std::vector<std::uint32_t> m_nodes{kLeafBit};
+  std::uint32_t m_leafCount = 1;
+};
+
+/// Spreads the low 21 bits of x to every third bit.
+inline std::uint64_t spreadBits3(std::uint64_t x) noexcept {
+  x &= 0x1fffff;
+  x = (x | x << 32) & 0x001f00000000ffffull;
+  x = (x | x << 16) & 0x001f0000ff0000ffull;
+  x = (x | x << 8) & 0x100f00f00f00f00full;
+  x = (x | x << 4) & 0x10c30c30c30c30c3ull;
+  x = (x | x << 2) & 0x1249249249249249ull;
+  return x;
+}
+
+inline std::uint64_t SpatialTree::codeOf(const Imath::V3f& position) const noexcept {
+  constexpr float kMax = float((1 << kBitsPerAxis) - 1);
+  const auto cell = [&](int axis) {
+    const float x = (position[axis] - m_bounds.min[axis]) * m_scale;
+    return spreadBits3(std::uint64_t(x > 0 ? (x < kMax ? x : kMax) : 0.0f));  // NaN goes to 0
+  };
+  return (cell(0) << 2 | cell(1) << 1 | cell(2)) << 1;
+}
+
+}  // namespace guiding

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <ImathVec.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "guiding/settings.h"
+
+namespace guiding {
+
+inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
+inline constexpr float kPiF = 3.14159265358979323846f;
+
+/// A point of the unit square as fixed-point numbers: bit 23 - d of a coordinate chooses the half at depth d.
+struct SquarePoint {
+  static constexpr int kBits = 24;
+  std::uint32_t x = 0, y = 0;
+
+  /// Which of the four cells (x + 2 y) at depth d contains the point.
+  int cellAt(int depth) const noexcept {
+    const int shift = kBits - 1 - depth;
+    return int((x >> shift) & 1u) | (int((y >> shift) & 1u) << 1);
+  }
+};
+
+inline SquarePoint toSquarePoint(const Imath::V2f& uv) noexcept {
+  constexpr float kScale = float(1u << SquarePoint::kBits);
+  return {std::uint32_t(std::clamp(uv.x, 0.0f, kOneMinusEpsilon) * kScale),
+          std::uint32_t(std::clamp(uv.y, 0.0f, kOneMinusEpsilon) * kScale)};
+}
+
+namespace detail {
+
+// sin and cos of 2 pi times cylinder's v; sinTheta = 2 sqrt(u (1-u)) avoids the cancellation of 1 - cos^2.
+inline Imath::V3f cylinderToSphere(const Imath::V2f& uv) noexcept {
+  const float cosTheta = 2 * uv.x - 1;
+  const float sinTheta = 2 * std::sqrt(std::max(0.0f, uv.x * (1 - uv.x)));
+  const float phi = 2 * kPiF * uv.y;
+  return {sinTheta * std::cos(phi), sinTheta * std::sin(phi), cosTheta};
+}
+
+inline Imath::V2f sphereToCylinder(const Imath::V3f& w) noexcept {
+  float v = std::atan2(w.y, w.x) * (0.5f / kPiF);
+  if (v < 0) v += 1;
+  return {(w.z + 1) * 0.5f, v};
+}
+
+// Equal-area octahedron [Clarberg 2008, Sec. 3].
+inline Imath::V3f octahedronToSphere(const Imath::V2f& uv) noexcept {
+  const float px = 2 * uv.x - 1, py = 2 * uv.y - 1;
+  const float ax = std::abs(px), ay = std::abs(py);
+  const float signedDistance = 1 - (ax + ay);
+  const float r = 1 - std::abs(signedDistance);
+  const float phi = r > 0 ? ((ay - ax) / r + 1) * (kPiF / 4) : 0.0f;
+  const float sinTheta = r * std::sqrt(2 - r * r);
+  return {std::copysign(sinTheta * std::cos(phi), px), std::copysign(sinTheta * std::sin(phi), py),
+          std::copysign(1 - r * r, signedDistance)};
+}
+
+inline Imath::V2f sphereToOctahedron(const Imath::V3f& w) noexcept {
+  const float ax = std::abs(w.x), ay = std::abs(w.y);
+  // r^2 = 1 - |z|, without the cancellation.
+  const float r = std::sqrt((ax * ax + ay * ay) / (1 + std::abs(w.z)));
+  const float share = std::atan2(ay, ax) * (2 / kPiF);
+  float y = share * r;
+  float x = r - y;
+  if (w.z < 0) {
+    const float folded = 1 - y;
+    y = 1 - x;
+    x = folded;
+  }
+  return {(std::copysign(x, w.x) + 1) * 0.5f, (std::copysign(y, w.y) + 1) * 0.5f};
+}
+
+}  // namespace detail
+
+/// Area-preserving map of the unit square onto the unit sphere. Density per solid angle = density on the square / (4 pi).
+inline Imath::V3f squareToSphere(DirectionMap map, const Imath::V2f& uv) noexcept {
+  return map == DirectionMap::Cylinder ? detail::cylinderToSphere(uv) : detail::octahedronToSphere(uv);
+}
+
+/// Inverse of squareToSphere; each coordinate in [0, 1].
+inline Imath::V2f sphereToSquare(DirectionMap map, const Imath::V3f& w) noexcept {
+  return map == DirectionMap::Cylinder ? detail::sphereToCylinder(w) : detail::sphereToOctahedron(w);
+}
+
+/// Bound of |sphereToSquare(squareToSphere(uv)) - uv| in either coordinate in float arithmetic (checked by the tests).
+inline float squareRoundTripError(DirectionMap map, const Imath::V3f& w) noexcept {
+  if (map == DirectionMap::Octahedral) return 1e-6f;
+  // Near the poles of the cylinder the azimuth loses bits as the circle shrinks.
+  return 4e-7f + 3e-7f / std::max(1e-6f, std::sqrt(w.x * w.x + w.y * w.y));
+}
+
+}  // namespace guiding
