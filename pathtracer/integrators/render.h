@@ -44,19 +44,19 @@ struct RenderSettings {
   MisHeuristic heuristic = MisHeuristic::Balance;
   AovSelection aovs;
 
-  std::optional<GuidingSettings> guiding;          ///< none: unguided
-  bool trainOnly = false;                          ///< the final iteration is recorded and learned too
+  std::optional<GuidingSettings> guiding;  ///< none: unguided
+  bool learnFinal = false;  ///< the final iteration is recorded and learned too (training for its own sake)
 };
 
 /// One iteration (an unguided render is one iteration).
 struct IterationReport {
   int index = 0;
   std::int64_t spp = 0;
-  double seconds = 0;       ///< wall-clock of all below
-  double trainSeconds = 0;  ///< accumulate
-  double freezeSeconds = 0; ///< endIteration
-  double variance = 0;      ///< as guiding::IterationOutcome
-  double weight = 0;        ///< in the final picture
+  double seconds = 0;        ///< wall-clock, with the two below
+  double trainSeconds = 0;   ///< Field::accumulate
+  double freezeSeconds = 0;  ///< Field::endIteration, where the iteration was learned from
+  double variance = 0;       ///< as guiding::IterationOutcome
+  double weight = 0;         ///< in the final picture
 };
 
 struct RenderCounters {
@@ -76,9 +76,9 @@ struct RenderResult {
   RenderCounters counters;
   double seconds = 0;
   double cpuSeconds = 0;
-  std::size_t peakRecordBytes = 0;  ///< largest memory of the sample buffers
-  bool interrupted = false;
-  std::optional<guiding::Field> field;
+  std::size_t peakRecordBytes = 0;      ///< largest memory of the records between tracing and learning
+  bool interrupted = false;             ///< ended by RenderHooks::stop before the budget was spent
+  std::optional<guiding::Field> field;  ///< none: unguided, or no material that a guide could help
 };
 
 /// What an observer may look at after each pass.
@@ -92,14 +92,17 @@ struct RenderProgress {
 struct RenderHooks {
   /// Called on the rendering thread after each pass; its time is not counted in any of the seconds.
   std::function<void(const RenderProgress&)> onPass;
-  /// The picture a user would get if the run ended now (iterations combined); called after a pass when `wantsImage` says so.
+  /// The picture a user would get if the run ended now (iterations combined); called after a pass when `wantsImage`
+  /// says so.
   std::function<bool(const RenderProgress&)> wantsImage;
   std::function<void(const RenderProgress&, const Image&)> onImage;
   /// Set from anywhere to finish the current pass and return what there is.
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Renders. `pretrained` is used from the first iteration on and goes on learning. Throws InputError for impossible settings.
+/// Renders. The whole budget of a `pretrained` field (its own settings hold; settings.guiding must be there all the
+/// same) is one iteration, learned from only with learnFinal. Throws InputError for impossible settings or a field that
+/// does not hold the scene. With a budget in samples the result is the same to the bit on any number of threads.
 RenderResult render(const Scene& scene, const RenderSettings& settings, const RenderHooks& hooks = {},
                     std::optional<guiding::Field> pretrained = std::nullopt);
 

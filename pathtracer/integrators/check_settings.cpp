@@ -1,0 +1,60 @@
+#include "integrators/check_settings.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace pt {
+
+namespace {
+
+constexpr int kMaxSide = 1 << 17;
+constexpr std::int64_t kMaxPixels = std::int64_t(1) << 28;
+constexpr std::int64_t kMaxSpp = std::int64_t(1) << 31;  // samples are numbered with 32 bits
+
+void checkResolution(int width, int height) {
+  if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide || std::int64_t(width) * height > kMaxPixels)
+    throw InputError(
+        fmt::format("resolution {}x{} cannot be rendered: each side must lie in [1, {}] and the product below {}",
+                    width, height, kMaxSide, kMaxPixels));
+}
+
+void checkBudget(const RenderSettings& settings) {
+  if (!((settings.spp > 0) != (settings.seconds > 0)) || settings.spp < 0 || !(settings.seconds >= 0))
+    throw InputError("give either a positive number of samples per pixel or a positive number of seconds");
+  if (settings.spp > kMaxSpp)
+    throw InputError(fmt::format("{} samples per pixel are too many: at most {}", settings.spp, kMaxSpp));
+}
+
+void checkPath(const IntegratorDescription& path) {
+  if (path.maxDepth == 0 || path.maxDepth < -1)
+    throw InputError(
+        fmt::format("maxDepth {} is impossible: use -1 (unbounded) or at least 1 (emission only)", path.maxDepth));
+  if (path.rrDepth < 1)
+    throw InputError(
+        fmt::format("rrDepth {} is impossible: Russian roulette starts at depth 1 at the earliest", path.rrDepth));
+}
+
+}  // namespace
+
+void checkSettings(const RenderSettings& settings) {
+  checkResolution(settings.width, settings.height);
+  checkBudget(settings);
+  checkPath(settings.path);
+  if (settings.threads < 0) throw InputError(fmt::format("{} threads are impossible: use 0 for all", settings.threads));
+  if (!settings.guiding) return;
+  if (const auto status = settings.guiding->field.validate(); !status)
+    throw InputError("guiding settings: " + status.error().text);
+  if (const auto status = settings.guiding->schedule.validate(); !status)
+    throw InputError("guiding settings: " + status.error().text);
+}
+
+void checkFieldHolds(const guiding::Field& field, const Box3& sceneBounds) {
+  const Box3& known = field.bounds();
+  const float slack = 1e-3f * maxComponent(Spectrum(known.size()));
+  for (int axis = 0; axis < 3; ++axis)
+    if (sceneBounds.min[axis] < known.min[axis] - slack || sceneBounds.max[axis] > known.max[axis] + slack)
+      throw InputError("the trained field does not hold this scene: it was trained on another one; train a new field");
+}
+
+}  // namespace pt

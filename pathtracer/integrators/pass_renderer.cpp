@@ -1,0 +1,87 @@
+#include "integrators/pass_renderer.h"
+
+#include <span>
+
+#include "film/pixel_filter.h"
+#include "integrators/render_clock.h"
+
+namespace pt {
+
+namespace {
+
+constexpr int kTileSize = 16;
+/// Paths that are recorded before the field learns from them: bounds the records' memory for large pictures.
+constexpr std::int64_t kRecordedPaths = 1 << 18;
+
+}  // namespace
+
+PassRenderer::PassRenderer(const Scene& scene, const RenderSettings& settings)
+    : m_scene(scene),
+      m_settings(settings),
+      m_tiles(settings.width, settings.height, kTileSize),
+      m_workers(settings.threads),
+      m_workerStates(std::size_t(m_workers.count())) {}
+
+void PassRenderer::render(const PathLoop& loop, SampleRange samples, const PassTargets& targets) {
+  const std::int64_t pathsPerTile = std::int64_t(kTileSize) * kTileSize * samples.count;
+  const std::size_t tilesPerBatch =
+      targets.learner ? std::size_t(std::max<std::int64_t>(1, kRecordedPaths / pathsPerTile)) : m_tiles.count();
+  if (targets.learner) m_records.resize(std::min(tilesPerBatch, m_tiles.count()));
+
+  for (std::size_t begin = 0; begin < m_tiles.count(); begin += tilesPerBatch) {
+    const std::size_t count = std::min(tilesPerBatch, m_tiles.count() - begin);
+    m_workers.forEach(count, [&](std::size_t i, int worker) {
+      renderTile(m_tiles[begin + i], loop, samples, targets, m_workerStates[std::size_t(worker)],
+                 targets.learner ? &m_records[i] : nullptr);
+    });
+    if (targets.learner) learn(*targets.learner, count);
+  }
+}
+
+void PassRenderer::renderTile(const Tile& tile, const PathLoop& loop, SampleRange samples, const PassTargets& targets,
+                              PathWorker& worker, guiding::SampleBuffer* records) const {
+  Sampler sampler(m_settings.sampler, m_settings.seed);
+  FirstHit firstHit;
+  worker.firstHit = targets.aovs ? &firstHit : nullptr;
+  worker.records = records != nullptr;
+  if (records) records->clear();
+
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      for (std::int64_t i = samples.first; i < samples.first + samples.count; ++i) {
+        sampler.startPath(x, y, std::uint32_t(i));
+        const Vec2 film = Vec2(float(x) + 0.5f, float(y) + 0.5f) + sampleFilter(m_settings.filter, sampler.next2D());
+        const Ray ray = m_scene.camera().generateRay(film, sampler.next2D());
+        firstHit = {};
+        targets.film.add(x, y, loop.trace(ray, sampler, worker));
+        ++worker.counters.paths;
+        if (targets.aovs) targets.aovs->add(x, y, firstHit);
+        if (records) worker.recorder.finish(*records);
+      }
+    }
+  }
+}
+
+void PassRenderer::learn(guiding::Field& field, std::size_t buffers) {
+  std::size_t bytes = 0;
+  for (const guiding::SampleBuffer& buffer : m_records) bytes += buffer.size() * sizeof(guiding::RadianceSample);
+  m_peakRecordBytes = std::max(m_peakRecordBytes, bytes);
+
+  const RenderClock clock;
+  m_workers.execute([&] { field.accumulate(std::span(m_records).first(buffers)); });
+  m_trainSeconds += clock.seconds();
+}
+
+RenderCounters PassRenderer::counters() const {
+  RenderCounters sum;
+  for (const PathWorker& worker : m_workerStates) {
+    sum.paths += worker.counters.paths;
+    sum.rays += worker.counters.rays;
+    sum.shadowRays += worker.counters.shadowRays;
+    sum.scatterings += worker.counters.scatterings;
+    sum.guidedScatterings += worker.counters.guidedScatterings;
+  }
+  return sum;
+}
+
+}  // namespace pt

@@ -1,0 +1,139 @@
+#include "integrators/path_loop.h"
+
+#include <guiding/mis.h>
+#include <guiding/mixture.h>
+
+namespace pt {
+
+struct PathLoop::PathState {
+  Spectrum radiance{0.0f};
+  Spectrum throughput{1.0f};
+  /// The throughput that BSDF sampling alone would have given this path. Roulette goes by it: a guide makes the
+  /// throughput small exactly where much light is expected, and those paths must live.
+  Spectrum rouletteThroughput{1.0f};
+  float eta = 1;        ///< product of the relative indices of refraction crossed
+  int depth = 1;        ///< edges from the camera to the current hit
+  Vec3 previous;        ///< where the path scattered last
+  float pdf = 0;        ///< mixture density of the ray at `previous`, per solid angle
+  bool isDelta = true;  ///< light sampling at `previous` cannot find what the ray met: camera rays and delta scattering
+};
+
+PathLoop::PathLoop(const Scene& scene, const RenderSettings& settings, const guiding::Field* field) noexcept
+    : m_scene(scene),
+      m_field(field),
+      m_settings(settings.path),
+      m_nee(settings.nee && scene.features().hasSampleableLights),
+      m_powerHeuristic(settings.heuristic == MisHeuristic::Power) {}
+
+Spectrum PathLoop::trace(Ray ray, Sampler& sampler, PathWorker& worker) const noexcept {
+  PathState path;
+  SurfaceInteraction si;
+  if (worker.records) worker.recorder.begin();
+
+  for (;; ++path.depth) {
+    // The nearest surface
+    ++worker.counters.rays;
+    const bool hit = m_scene.intersect(ray, si);
+    if (path.depth == 1 && worker.firstHit && hit)
+      *worker.firstHit = {si.material ? si.material->albedo(si) : Spectrum(0.0f), si.frame.n, si.distance};
+    if (worker.records && hit) worker.recorder.setDistance(si.distance);
+
+    // Emission, weighted against light sampling
+    const Spectrum emitted = emission(path, ray, hit ? &si : nullptr);
+    path.radiance += path.throughput * emitted;
+    if (worker.records) worker.recorder.addEmission(emitted);
+
+    // The end of the path
+    if (!hit || pathEnds(path, si)) break;
+    if (!survivesRoulette(path, sampler, worker)) break;
+
+    // The guide at this point
+    const SurfaceBsdf bsdf(si, m_settings.strictNormals);
+    const bool hasSmooth = si.material->traits().hasSmooth;
+    const auto guide = m_field && hasSmooth ? m_field->bind(si.p) : guiding::GuidingDistribution();
+
+    // Direct light
+    if (m_nee && hasSmooth) {
+      const Spectrum direct = sampleDirect(si, bsdf, guide, sampler, worker.counters);
+      path.radiance += path.throughput * direct;
+      if (worker.records) worker.recorder.addDirect(direct);
+    }
+
+    // The next direction
+    if (!scatter(path, si, bsdf, guide, sampler, worker, ray)) break;
+  }
+  return path.radiance;
+}
+
+Spectrum PathLoop::emission(const PathState& path, const Ray& ray, const SurfaceInteraction* hit) const noexcept {
+  if (m_settings.hideEmitters && path.depth == 1) return Spectrum(0.0f);
+  Spectrum emitted(0.0f);
+  if (hit) {
+    if (hit->light) emitted = hit->light->radiance(*hit, hit->wo);
+  } else if (const EnvironmentLight* environment = m_scene.environment()) {
+    emitted = environment->radianceFrom(ray.direction);
+  }
+  if (path.isDelta || !m_nee || isBlack(emitted)) return emitted;
+  const float lightPdf = hit ? m_scene.pdfDirect(path.previous, *hit) : m_scene.pdfEnvironment(ray.direction);
+  return emitted * misWeight(path.pdf, lightPdf);
+}
+
+bool PathLoop::pathEnds(const PathState& path, const SurfaceInteraction& si) const noexcept {
+  if (!si.material) return true;
+  if (m_settings.maxDepth >= 0 && path.depth >= m_settings.maxDepth) return true;
+  return m_settings.strictNormals && si.ng.dot(si.wo) * si.frame.n.dot(si.wo) <= 0;
+}
+
+bool PathLoop::survivesRoulette(PathState& path, Sampler& sampler, PathWorker& worker) const noexcept {
+  if (path.depth <= m_settings.rrDepth) return true;
+  // The radiance carried shrinks by eta^2 at each refraction and may grow again at the next; roulette looks past that.
+  const float survivalProbability = std::min(maxComponent(path.rouletteThroughput) * path.eta * path.eta, 0.95f);
+  if (!(sampler.next1D() < survivalProbability)) return false;
+  path.throughput /= survivalProbability;
+  path.rouletteThroughput /= survivalProbability;
+  if (worker.records) worker.recorder.survived(survivalProbability);
+  return true;
+}
+
+Spectrum PathLoop::sampleDirect(const SurfaceInteraction& si, const SurfaceBsdf& bsdf,
+                                const guiding::GuidingDistribution& guide, Sampler& sampler,
+                                RenderCounters& counters) const noexcept {
+  const float uLight = sampler.next1D();
+  const DirectSample light = m_scene.sampleDirect(si.p, uLight, sampler.next2D());
+  if (!(light.pdf > 0) || isBlack(light.radiance)) return Spectrum(0.0f);
+  const BsdfEvaluation f = bsdf.evaluate(light.wi);
+  if (isBlack(f.bsdfCos)) return Spectrum(0.0f);
+  ++counters.shadowRays;
+  if (!m_scene.visible(si, light)) return Spectrum(0.0f);
+  const float weight = light.isDelta ? 1.0f : misWeight(light.pdf, guiding::mixturePdf(guide, f.pdf, light.wi));
+  return f.bsdfCos * light.radiance * (weight / light.pdf);
+}
+
+bool PathLoop::scatter(PathState& path, const SurfaceInteraction& si, const SurfaceBsdf& bsdf,
+                       const guiding::GuidingDistribution& guide, Sampler& sampler, PathWorker& worker,
+                       Ray& ray) const noexcept {
+  const float uChoice = sampler.next1D();
+  const auto draw = guiding::sampleMixture(bsdf, guide, uChoice, sampler.next2D());
+  ++worker.counters.scatterings;
+  if (guide) ++worker.counters.guidedScatterings;
+  if (isBlack(draw.weight)) return false;
+
+  path.throughput *= draw.weight;
+  path.rouletteThroughput *= draw.bsdfPdf > 0 ? draw.weight * (draw.pdf / draw.bsdfPdf) : draw.weight;
+  path.eta *= bsdf.etaCrossed(draw.wi);
+  path.previous = si.p;
+  path.pdf = draw.pdf;
+  path.isDelta = draw.isDelta;
+  if (worker.records)
+    worker.recorder.scatter(
+        {si.p, draw.wi, draw.weight, draw.bsdfCos, draw.pdf, draw.bsdfPdf, draw.guidePdf, draw.isDelta});
+  ray = m_scene.spawnRay(si, draw.wi);
+  return true;
+}
+
+float PathLoop::misWeight(float pdf, float otherPdf) const noexcept {
+  return m_powerHeuristic ? guiding::powerHeuristic(1, pdf, 1, otherPdf)
+                          : guiding::balanceHeuristic(1, pdf, 1, otherPdf);
+}
+
+}  // namespace pt

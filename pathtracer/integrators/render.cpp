@@ -1,0 +1,226 @@
+#include "integrators/render.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "integrators/aov_film.h"
+#include "integrators/check_settings.h"
+#include "integrators/iteration_images.h"
+#include "integrators/pass_renderer.h"
+#include "integrators/path_loop.h"
+#include "integrators/render_clock.h"
+
+namespace pt {
+
+namespace {
+
+/// Small pictures take several samples of each pixel in one pass, so that a pass is worth starting all threads for.
+constexpr std::int64_t kPathsPerPass = 1 << 16;
+
+/// One call of render().
+class RenderRun {
+ public:
+  RenderRun(const Scene& scene, const RenderSettings& settings, const RenderHooks& hooks,
+            std::optional<guiding::Field> pretrained);
+
+  RenderResult run();
+
+ private:
+  guiding::IterationPlan nextPlan() const;
+  bool learns(const guiding::IterationPlan& plan) const;
+  void renderIteration(const guiding::IterationPlan& plan);
+  void closeIteration(const guiding::IterationPlan& plan);
+  void endFieldIteration();
+  guiding::IterationOutcome outcomeSoFar() const;
+  std::vector<double> imageWeights() const;
+  Image imageSoFar(const guiding::IterationPlan& plan) const;
+  void callHooks(const guiding::IterationPlan& plan) const;
+  bool timeIsOver() const;
+  bool stopped() const { return m_hooks.stop && m_hooks.stop->load(std::memory_order_relaxed); }
+  RenderResult finish();
+
+  const Scene& m_scene;
+  const RenderSettings& m_settings;
+  const RenderHooks& m_hooks;
+
+  RenderClock m_clock;
+  PassRenderer m_passes;
+  Film m_film;  ///< of the current iteration
+  std::optional<AovFilm> m_aovs;
+  IterationImages m_images;
+  std::optional<guiding::Field> m_field;
+  std::optional<guiding::TrainingSchedule> m_schedule;  ///< none: the whole budget is one iteration
+  std::vector<IterationReport> m_iterations;
+
+  std::int64_t m_sppDone = 0;         ///< over all iterations
+  std::int64_t m_sppOfIteration = 0;  ///< in the current one
+  double m_iterationStart = 0;        ///< seconds at which the current iteration began
+  double m_renderingEnd = 0;          ///< seconds at which the last pass of the iteration before ended
+  double m_passSeconds = 0;           ///< of the last pass
+  double m_trainSecondsReported = 0;
+  std::uint64_t m_rejectedSamples = 0;
+};
+
+RenderRun::RenderRun(const Scene& scene, const RenderSettings& settings, const RenderHooks& hooks,
+                     std::optional<guiding::Field> pretrained)
+    : m_scene(scene),
+      m_settings(settings),
+      m_hooks(hooks),
+      m_passes(scene, settings),
+      m_film(settings.width, settings.height),
+      m_images(settings.aovs.variance) {
+  const AovSelection& aovs = settings.aovs;
+  if (aovs.albedo || aovs.normal || aovs.depth) m_aovs.emplace(settings.width, settings.height, aovs);
+  if (!settings.guiding || !scene.features().hasSmoothMaterials) return;
+
+  if (pretrained) {
+    checkFieldHolds(*pretrained, scene.bounds());
+    m_field = std::move(pretrained);
+    return;
+  }
+  auto field = guiding::Field::create(scene.bounds(), settings.guiding->field);
+  if (!field) throw InputError("cannot guide in this scene: " + field.error().text);
+  m_field = std::move(field).value();
+  m_schedule.emplace(settings.guiding->schedule, settings.spp, settings.seconds);
+}
+
+RenderResult RenderRun::run() {
+  guiding::IterationPlan plan = nextPlan();
+  while (plan.spp > 0) {
+    renderIteration(plan);
+    const bool isOver = stopped() || timeIsOver();
+    const guiding::IterationPlan next = isOver ? guiding::IterationPlan{} : nextPlan();
+    const bool isLast = next.spp == 0;
+    if (learns(plan) && (isLast ? m_settings.learnFinal : !next.keepsDensity)) endFieldIteration();
+    plan = next;
+  }
+  return finish();
+}
+
+guiding::IterationPlan RenderRun::nextPlan() const {
+  if (m_schedule) return m_schedule->next();
+  guiding::IterationPlan plan;
+  plan.isFinal = true;
+  if (m_iterations.empty())
+    plan.spp = m_settings.spp > 0 ? m_settings.spp : guiding::TrainingSchedule::kUntilTimeIsOver;
+  return plan;
+}
+
+bool RenderRun::learns(const guiding::IterationPlan& plan) const {
+  return m_field && (!plan.isFinal || m_settings.learnFinal);
+}
+
+void RenderRun::renderIteration(const guiding::IterationPlan& plan) {
+  const bool hasGuide = m_field && m_field->hasGuide();
+  const PathLoop loop(m_scene, m_settings, hasGuide ? &*m_field : nullptr);
+  const PassTargets targets{m_film, m_aovs ? &*m_aovs : nullptr, learns(plan) ? &*m_field : nullptr};
+  const std::int64_t pixels = std::int64_t(m_settings.width) * m_settings.height;
+  const std::int64_t sppOfPass = std::max<std::int64_t>(1, kPathsPerPass / pixels);
+
+  m_film.clear();
+  m_sppOfIteration = 0;
+  do {
+    const double passStart = m_clock.seconds();
+    const std::int64_t count = std::min(sppOfPass, plan.spp - m_sppOfIteration);
+    m_passes.render(loop, {m_sppDone, count}, targets);
+    m_sppDone += count;
+    m_sppOfIteration += count;
+    m_passSeconds = m_clock.seconds() - passStart;
+    m_clock.excluded([&] { callHooks(plan); });
+  } while (m_sppOfIteration < plan.spp && !timeIsOver() && !stopped());
+  closeIteration(plan);
+}
+
+void RenderRun::closeIteration(const guiding::IterationPlan& plan) {
+  const guiding::IterationOutcome outcome = outcomeSoFar();
+  m_renderingEnd = m_clock.seconds();
+  IterationReport report;
+  report.index = plan.index;
+  report.spp = outcome.spp;
+  report.seconds = m_renderingEnd - m_iterationStart;
+  report.trainSeconds = m_passes.trainSeconds() - m_trainSecondsReported;
+  report.variance = outcome.variance;
+  m_iterations.push_back(report);
+  m_trainSecondsReported = m_passes.trainSeconds();
+  m_iterationStart = m_renderingEnd;
+  m_rejectedSamples += m_film.rejectedSamples();
+
+  if (m_schedule) m_schedule->report(plan, outcome);
+  m_images.add(m_film);
+  m_images.forgetUnweighted(imageWeights());
+}
+
+void RenderRun::endFieldIteration() {
+  m_passes.workers().execute([this] { m_field->endIteration(double(m_sppOfIteration)); });
+  const double now = m_clock.seconds();
+  m_iterations.back().freezeSeconds = now - m_iterationStart;
+  m_iterations.back().seconds += now - m_iterationStart;
+  m_iterationStart = now;
+}
+
+/// The schedule's cost of an iteration starts where the rendering of the one before ended: the freezing between them is
+/// paid for the later one.
+guiding::IterationOutcome RenderRun::outcomeSoFar() const {
+  return {m_sppOfIteration, m_film.meanVariance(), m_clock.seconds() - m_renderingEnd};
+}
+
+std::vector<double> RenderRun::imageWeights() const {
+  return m_schedule ? m_schedule->imageWeights() : std::vector<double>{1.0};
+}
+
+/// The picture a user would get if the run ended now.
+Image RenderRun::imageSoFar(const guiding::IterationPlan& plan) const {
+  if (!m_schedule) return m_film.mean();
+  guiding::TrainingSchedule schedule = *m_schedule;
+  schedule.report(plan, outcomeSoFar());
+  const std::vector<double> weights = schedule.imageWeights();
+  Image image = m_images.combined(weights);
+  if (weights.back() > 0) addWeighted(image, m_film.mean(), weights.back());
+  return image;
+}
+
+void RenderRun::callHooks(const guiding::IterationPlan& plan) const {
+  const RenderProgress progress{.iteration = plan.index,
+                                .isFinal = plan.isFinal,
+                                .sppDone = m_sppDone,
+                                .sppTotal = m_settings.spp,
+                                .secondsDone = m_clock.seconds(),
+                                .secondsBudget = m_settings.seconds};
+  if (m_hooks.onPass) m_hooks.onPass(progress);
+  if (m_hooks.wantsImage && m_hooks.onImage && m_hooks.wantsImage(progress))
+    m_hooks.onImage(progress, imageSoFar(plan));
+}
+
+/// Ends with the pass that comes closest to the budget rather than always above it.
+bool RenderRun::timeIsOver() const {
+  return m_settings.seconds > 0 && m_clock.seconds() + 0.5 * m_passSeconds >= m_settings.seconds;
+}
+
+RenderResult RenderRun::finish() {
+  RenderResult result;
+  const std::vector<double> weights = imageWeights();
+  result.image = m_images.combined(weights);
+  if (m_aovs) result.aovs = m_aovs->images();
+  if (m_settings.aovs.variance) result.aovs.variance = m_images.combinedVariance(weights);
+  for (std::size_t i = 0; i < m_iterations.size(); ++i) m_iterations[i].weight = weights[i];
+  result.iterations = std::move(m_iterations);
+  result.counters = m_passes.counters();
+  result.counters.rejectedSamples = m_rejectedSamples;
+  result.peakRecordBytes = m_passes.peakRecordBytes();
+  result.interrupted = stopped() && (m_settings.spp == 0 ? !timeIsOver() : m_sppDone < m_settings.spp);
+  result.field = std::move(m_field);
+  result.seconds = m_clock.seconds();
+  result.cpuSeconds = m_clock.cpuSeconds();
+  return result;
+}
+
+}  // namespace
+
+RenderResult render(const Scene& scene, const RenderSettings& settings, const RenderHooks& hooks,
+                    std::optional<guiding::Field> pretrained) {
+  checkSettings(settings);
+  if (pretrained && !settings.guiding) throw InputError("a trained field was given, but guiding is off");
+  return RenderRun(scene, settings, hooks, std::move(pretrained)).run();
+}
+
+}  // namespace pt
