@@ -1,0 +1,123 @@
+#include <guiding/mixture.h>
+
+#include <vector>
+
+#include "micro/micro.h"
+#include "synthetic/random.h"
+
+namespace bench {
+
+namespace {
+
+constexpr std::size_t kQueries = 1 << 14;  // enough to touch every leaf, in random order
+
+/// A white diffuse surface.
+struct DiffuseBsdf {
+  using Color = Imath::V3f;
+  Imath::V3f normal;
+
+  guiding::BsdfEvaluation<Color> evaluate(const Imath::V3f& wi) const noexcept {
+    const float pdf = std::max(0.0f, wi.dot(normal)) / kPi;
+    return {Color(pdf), pdf};
+  }
+  guiding::BsdfDraw<Color> sample(float, const Imath::V2f& u) const noexcept {
+    const float z = 1 - 2 * u.x, phi = 2 * kPi * u.y, r = std::sqrt(std::max(0.0f, 1 - z * z));
+    const Imath::V3f wi = (normal + Imath::V3f(r * std::cos(phi), r * std::sin(phi), z)).normalized();
+    const float pdf = std::max(0.0f, wi.dot(normal)) / kPi;
+    return {wi, Color(1.0f), pdf, false};
+  }
+};
+
+struct Query {
+  Imath::V3f position, direction;
+  Imath::V2f u;
+  float uChoice = 0;
+};
+
+std::vector<Query> makeQueries(const guiding::Field& field) {
+  Random random(3);
+  std::vector<Query> queries(kQueries);
+  const Imath::V3f size = field.bounds().size();
+  for (Query& q : queries)
+    q = {field.bounds().min + random.next3D() * size, random.nextDirection(), random.next2D(), random.next1D()};
+  return queries;
+}
+
+std::vector<guiding::GuidingDistribution> bindAll(const guiding::Field& field, const std::vector<Query>& queries) {
+  std::vector<guiding::GuidingDistribution> guides;
+  for (const Query& q : queries)
+    if (const auto guide = field.bind(q.position)) guides.push_back(guide);
+  return guides;
+}
+
+void countField(benchmark::State& state, const guiding::Field& field) {
+  const guiding::FieldStats stats = field.stats();
+  state.counters["leaves"] = double(stats.spatialLeaves);
+  state.counters["bytesPerLeaf"] = double(stats.memoryBytes) / double(stats.spatialLeaves);
+  state.counters["nodesPerLeaf"] = double(stats.quadtreeNodes) / double(stats.spatialLeaves);
+}
+
+void bind(benchmark::State& state, const guiding::Field& field) {
+  const auto queries = makeQueries(field);
+  std::size_t i = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(field.bind(queries[i++ % kQueries].position));
+  countField(state, field);
+}
+
+void sample(benchmark::State& state, const guiding::Field& field) {
+  const auto queries = makeQueries(field);
+  const auto guides = bindAll(field, queries);
+  std::size_t i = 0, g = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(guides[g].sample(queries[i++ % kQueries].u));
+    if (++g == guides.size()) g = 0;
+  }
+}
+
+void pdf(benchmark::State& state, const guiding::Field& field) {
+  const auto queries = makeQueries(field);
+  const auto guides = bindAll(field, queries);
+  std::size_t i = 0, g = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(guides[g].pdf(queries[i++ % kQueries].direction));
+    if (++g == guides.size()) g = 0;
+  }
+}
+
+void vertex(benchmark::State& state, const guiding::Field& field) {
+  const auto queries = makeQueries(field);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const Query& q = queries[i++ % kQueries];
+    const guiding::GuidingDistribution guide = field.bind(q.position);
+    if (!guide) continue;
+    benchmark::DoNotOptimize(guide.sample(q.u));
+    benchmark::DoNotOptimize(guide.pdf(q.direction));
+  }
+}
+
+void mixture(benchmark::State& state, const guiding::Field& field) {
+  const auto queries = makeQueries(field);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const Query& q = queries[i++ % kQueries];
+    const DiffuseBsdf bsdf{q.direction};
+    benchmark::DoNotOptimize(guiding::sampleMixture(bsdf, field.bind(q.position), q.uChoice, q.u));
+  }
+}
+
+}  // namespace
+
+void registerLookups(const std::string& fieldName, const guiding::Field& field) {
+  const auto add = [&](const char* name, void (*run)(benchmark::State&, const guiding::Field&)) {
+    benchmark::RegisterBenchmark((std::string(name) + "/" + fieldName).c_str(),
+                                 [run, &field](benchmark::State& s) { run(s, field); });
+  };
+  add("bind", bind);
+  add("sample", sample);
+  add("pdf", pdf);
+  add("bind+sample+pdf", vertex);
+  add("bind+mixture", mixture);
+}
+
+}  // namespace bench

@@ -1,0 +1,5 @@
+#include "micro/micro.h"
+
+int main(int argc, char** argv) {
+  return bench::runMicro(argc, argv);
+}
