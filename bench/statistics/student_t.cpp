@@ -13,7 +13,7 @@ double studentCdf(double t, double nu) {
   // With t = sqrt(nu) tan(a) the density becomes c cos(a)^(nu-1) on a bounded interval.
   const double c = std::exp(std::lgamma((nu + 1) / 2) - std::lgamma(nu / 2)) / std::sqrt(std::numbers::pi);
   const double end = std::atan(t / std::sqrt(nu));
-  constexpr int kSteps = 2000;  // Simpson; even
+  constexpr int kSteps = 100;  // Simpson; even
   const double h = end / kSteps;
   double sum = 1 + std::pow(std::cos(end), nu - 1);
   for (int i = 1; i < kSteps; ++i) sum += (i % 2 ? 4 : 2) * std::pow(std::cos(i * h), nu - 1);
@@ -24,7 +24,7 @@ double studentHalfWidth(double confidence, double nu) {
   const double target = 0.5 + confidence / 2;
   double low = 0, high = 1;
   while (studentCdf(high, nu) < target) high *= 2;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 45; ++i) {
     const double middle = (low + high) / 2;
     (studentCdf(middle, nu) < target ? low : high) = middle;
   }
