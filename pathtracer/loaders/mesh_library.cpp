@@ -1,0 +1,42 @@
+#include "loaders/mesh_library.h"
+
+#include <tbb/parallel_for.h>
+
+#include <exception>
+
+#include "loaders/loader_error.h"
+
+namespace pt {
+
+std::shared_ptr<const TriangleMesh> MeshLibrary::request(const MeshFile& file, const SourceLocation& source) {
+  MeshFile key = file;
+  std::error_code failed;
+  if (const auto canonical = std::filesystem::canonical(file.path, failed); !failed) key.path = canonical;
+  Entry& entry = m_entries[key];
+  if (!entry.mesh) entry = {std::make_shared<TriangleMesh>(), source};
+  return entry.mesh;
+}
+
+void MeshLibrary::load() {
+  struct Job {
+    const MeshFile* file;
+    Entry* entry;
+    std::string error;
+  };
+  std::vector<Job> jobs;
+  for (auto& [file, entry] : m_entries) jobs.push_back({&file, &entry, {}});
+  tbb::parallel_for(
+      std::size_t(0), jobs.size(),
+      [&](std::size_t i) {
+        try {
+          *jobs[i].entry->mesh = readMesh(*jobs[i].file);
+        } catch (const InputError& error) {
+          jobs[i].error = error.what();
+        }
+      },
+      tbb::simple_partitioner());
+  for (const Job& job : jobs)
+    if (!job.error.empty()) failAt(job.entry->source, job.error);
+}
+
+}  // namespace pt

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include "loaders/mitsuba_parts.h"
+
+namespace pt::mitsuba {
+namespace {
+
+LightDescription readPoint(Reader& reader) {
+  PointLight light;
+  if (reader.has("position") && reader.has("to_world")) reader.fail("position", "excludes to_world: give one or the other");
+  light.position = reader.point("position", Vec3(0, 0, 0)) * reader.transform("to_world");
+  light.intensity = reader.color("intensity", Spectrum(1.0f));
+  return {light, reader.object().source};
+}
+
+LightDescription readConstant(Reader& reader) {
+  reader.ignore({"to_world"});  // the same from everywhere
+  return {ConstantEnvironment{reader.color("radiance", Spectrum(1.0f))}, reader.object().source};
+}
+
+}  // namespace
+
+void readEmitter(Context& context, const Object& object) {
+  try {
+    Reader reader(context, object);
+    reader.ignore({"sampling_weight"});
+    if (object.type == "point") {
+      context.scene.lights.push_back(readPoint(reader));
+    } else if (object.type == "constant") {
+      context.scene.lights.push_back(readConstant(reader));
+    } else if (object.type == "area") {
+      failAt(object.source, "an area emitter belongs inside of a shape");
+    } else {
+      throw UnsupportedError(object.source, fmt::format("emitter '{}' is not supported", object.type));
+    }
+    reader.finish();
+  } catch (const UnsupportedError& error) {
+    context.leaveOut(error, "left out");
+  }
+}
+
+Spectrum readAreaEmitter(Context& context, const Object& object) {
+  if (object.type != "area") throw UnsupportedError(object.source, fmt::format("emitter '{}' of a shape is not supported", object.type));
+  Reader reader(context, object);
+  reader.ignore({"sampling_weight"});
+  const Spectrum radiance = reader.color("radiance", Spectrum(1.0f));
+  reader.finish();
+  return radiance;
+}
+
+}  // namespace pt::mitsuba
