@@ -79,7 +79,9 @@ double interpolate(std::span<const SpectralSample> samples, double nanometers) {
   return a.value * (1 - t) + b.value * t;
 }
 
-float srgbToLinear(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
+float srgbToLinear(float c) {
+  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+}
 
 }  // namespace
 

@@ -15,8 +15,9 @@ struct SpectralSample {
   double value = 0;
 };
 
-/// Spectrum to linear Rec.709 by the CIE 1931 2-degree observer: linear between samples, zero outside of them, equal energy 1
-/// having luminance 1. Samples must be in order of rising wavelength. The result may have negative components (out of gamut).
+/// Spectrum to linear Rec.709 by the CIE 1931 2-degree observer: linear between samples, zero outside of them, equal
+/// energy 1 having luminance 1. Samples must be in order of rising wavelength. The result may have negative components
+/// (out of gamut).
 Spectrum spectrumToRgb(std::span<const SpectralSample> samples);
 
 /// Radiance of a black body, W / (m^2 sr nm), seen by the same observer. `kelvin` > 0.

@@ -24,7 +24,8 @@ SceneDescription loadScene(const std::filesystem::path& file, const LoadOptions&
   if (ending == ".xml") {
     scene = loadMitsubaScene(file, options);
   } else {
-    throw InputError(fmt::format("{}: unknown kind of scene; .json (ours) and .xml (Mitsuba) are known", file.string()));
+    throw InputError(
+        fmt::format("{}: unknown kind of scene; .json (ours) and .xml (Mitsuba) are known", file.string()));
   }
   scene.file = file;
   scene.name = displayName(file);

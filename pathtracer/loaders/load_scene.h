@@ -9,8 +9,8 @@
 namespace pt {
 
 struct LoadOptions {
-  bool skipUnsupported = false;                      ///< leave out what is not supported and list it instead of failing
-  std::map<std::string, std::string> variables;      ///< $name = value, for Mitsuba files
+  bool skipUnsupported = false;                  ///< leave out what is not supported and list it instead of failing
+  std::map<std::string, std::string> variables;  ///< $name = value, for Mitsuba files
 };
 
 /// Loads a scene by its ending: .json (ours) or .xml (Mitsuba 0.5 to 3). Throws InputError.

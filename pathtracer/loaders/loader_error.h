@@ -7,7 +7,8 @@
 
 namespace pt {
 
-/// Something that a scene may rightly ask for and we do not have. Loaders told to skip such things catch it and list the reason.
+/// Something that a scene may rightly ask for and we do not have. Loaders told to skip such things catch it and list
+/// the reason.
 struct UnsupportedError : InputError {
   UnsupportedError(const SourceLocation& source, const std::string& what)
       : InputError(source + ": " + what + "; --skip-unsupported leaves it out"), reason(source + ": " + what) {}

@@ -16,7 +16,9 @@
 namespace pt {
 namespace {
 
-Vec3 toVec3(const aiVector3D& v) { return {v.x, v.y, v.z}; }
+Vec3 toVec3(const aiVector3D& v) {
+  return {v.x, v.y, v.z};
+}
 
 /// Collects assimp's meshes into one. A mesh lacking what others have (normals, uvs) makes the whole lack it.
 class MeshCollector {
@@ -47,7 +49,8 @@ class MeshCollector {
     if (m_mesh.triangles.size() == firstTriangle) return;
     addVertices(source, toFile);
     if (toFile.Determinant() < 0) {
-      for (auto t = m_mesh.triangles.begin() + firstTriangle; t != m_mesh.triangles.end(); ++t) std::swap((*t)[1], (*t)[2]);
+      for (auto t = m_mesh.triangles.begin() + firstTriangle; t != m_mesh.triangles.end(); ++t)
+        std::swap((*t)[1], (*t)[2]);
     }
   }
 
@@ -85,9 +88,10 @@ void checkFinite(const TriangleMesh& mesh, const std::string& file) {
 
 /// What is read beside geometry only costs time and memory.
 void leaveOutUnused(Assimp::Importer& importer) {
-  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
-                              aiComponent_COLORS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_BONEWEIGHTS |
-                                  aiComponent_ANIMATIONS | aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS);
+  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_COLORS | aiComponent_TANGENTS_AND_BITANGENTS |
+                                                          aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
+                                                          aiComponent_TEXTURES | aiComponent_LIGHTS |
+                                                          aiComponent_CAMERAS);
 }
 
 }  // namespace
@@ -105,7 +109,8 @@ TriangleMesh readMesh(const MeshFile& file) {
   Assimp::Importer importer;
   leaveOutUnused(importer);
   const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_RemoveComponent);
-  if (!scene || !scene->mRootNode) throw InputError(fmt::format("{}: cannot read the mesh: {}", name, importer.GetErrorString()));
+  if (!scene || !scene->mRootNode)
+    throw InputError(fmt::format("{}: cannot read the mesh: {}", name, importer.GetErrorString()));
 
   MeshCollector collector(file);
   collector.addNode(*scene, *scene->mRootNode, aiMatrix4x4());

@@ -19,8 +19,8 @@ struct MeshFile {
 /// True for the endings that readMesh understands: .obj, .ply, .gltf, .glb.
 bool isMeshFile(const std::filesystem::path& file);
 
-/// All triangles of a file as one mesh in the file's own space; equal vertices are joined. Throws InputError for a file that
-/// cannot be read, has no triangles or has a coordinate that is not finite.
+/// All triangles of a file as one mesh in the file's own space; equal vertices are joined. Throws InputError for a file
+/// that cannot be read, has no triangles or has a coordinate that is not finite.
 TriangleMesh readMesh(const MeshFile& file);
 
 }  // namespace pt

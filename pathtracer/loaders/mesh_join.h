@@ -4,8 +4,8 @@
 
 namespace pt {
 
-/// Joins vertices that are equal in every bit of position, normal and texture coordinates and drops unused ones. No tolerance:
-/// the topology of a mesh must not depend on its scale.
+/// Joins vertices that are equal in every bit of position, normal and texture coordinates and drops unused ones. No
+/// tolerance: the topology of a mesh must not depend on its scale.
 void joinEqualVertices(TriangleMesh& mesh);
 
 }  // namespace pt

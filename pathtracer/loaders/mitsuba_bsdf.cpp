@@ -17,7 +17,9 @@ float readIndex(Reader& reader, const std::string& name, const char* fallback) {
     return reader.number(name, 0);
   const std::string substance = reader.string(name, fallback);
   const auto index = findRefractionIndex(substance);
-  if (!index) reader.fail(name, fmt::format("names no known substance: '{}'{}", substance, suggestName(substance, refractionIndexNames())));
+  if (!index)
+    reader.fail(name, fmt::format("names no known substance: '{}'{}", substance,
+                                  suggestName(substance, refractionIndexNames())));
   return *index;
 }
 
@@ -25,7 +27,9 @@ Roughness readRoughness(Reader& reader) {
   Roughness roughness;
   if (reader.has("alpha_u") || reader.has("alpha_v")) {
     const float u = reader.number("alpha_u", 0.1f), v = reader.number("alpha_v", 0.1f);
-    if (u != v) throw UnsupportedError(reader.object().source, fmt::format("anisotropic roughness of {} is not supported", reader.title()));
+    if (u != v)
+      throw UnsupportedError(reader.object().source,
+                             fmt::format("anisotropic roughness of {} is not supported", reader.title()));
     roughness.alpha = u;
   } else {
     roughness.alpha = reader.number("alpha", 0.1f);
@@ -35,7 +39,9 @@ Roughness readRoughness(Reader& reader) {
   return roughness;
 }
 
-Kind readDiffuse(Context&, Reader& reader) { return DiffuseMaterial{reader.color("reflectance", Spectrum(0.5f))}; }
+Kind readDiffuse(Context&, Reader& reader) {
+  return DiffuseMaterial{reader.color("reflectance", Spectrum(0.5f))};
+}
 
 ConductorMaterial readConductorBase(Context& context, Reader& reader) {
   ConductorMaterial conductor;
@@ -43,7 +49,8 @@ ConductorMaterial readConductorBase(Context& context, Reader& reader) {
   const std::string preset = reader.string("material", context.isOld() && !hasIndex ? "Cu" : "none");
   if (hasIndex && preset != "none") reader.fail("material", "excludes eta and k: give one or the other");
   if (preset != "none") {
-    throw UnsupportedError(reader.object().source, fmt::format("the conductor '{}' is not known; give eta and k", preset));
+    throw UnsupportedError(reader.object().source,
+                           fmt::format("the conductor '{}' is not known; give eta and k", preset));
   }
   // Mitsuba 0.x leaves a missing half of the pair to copper; here as in Mitsuba 3 it is 0 + 1i.
   conductor.eta = reader.color("eta", conductor.eta);
@@ -55,7 +62,9 @@ ConductorMaterial readConductorBase(Context& context, Reader& reader) {
   return conductor;
 }
 
-Kind readConductor(Context& context, Reader& reader) { return readConductorBase(context, reader); }
+Kind readConductor(Context& context, Reader& reader) {
+  return readConductorBase(context, reader);
+}
 
 Kind readRoughConductor(Context& context, Reader& reader) {
   ConductorMaterial conductor = readConductorBase(context, reader);
@@ -73,8 +82,12 @@ Dielectric readDielectricBase(Reader& reader) {
   return dielectric;
 }
 
-Kind readDielectric(Context&, Reader& reader) { return readDielectricBase<DielectricMaterial>(reader); }
-Kind readThinDielectric(Context&, Reader& reader) { return readDielectricBase<ThinDielectricMaterial>(reader); }
+Kind readDielectric(Context&, Reader& reader) {
+  return readDielectricBase<DielectricMaterial>(reader);
+}
+Kind readThinDielectric(Context&, Reader& reader) {
+  return readDielectricBase<ThinDielectricMaterial>(reader);
+}
 
 Kind readRoughDielectric(Context&, Reader& reader) {
   auto dielectric = readDielectricBase<DielectricMaterial>(reader);
@@ -92,7 +105,9 @@ PlasticMaterial readPlasticBase(Reader& reader) {
   return plastic;
 }
 
-Kind readPlastic(Context&, Reader& reader) { return readPlasticBase(reader); }
+Kind readPlastic(Context&, Reader& reader) {
+  return readPlasticBase(reader);
+}
 
 Kind readRoughPlastic(Context&, Reader& reader) {
   PlasticMaterial plastic = readPlasticBase(reader);
@@ -103,7 +118,8 @@ Kind readRoughPlastic(Context&, Reader& reader) {
 Kind readTwoSided(Context& context, Reader& reader) {
   const auto sides = reader.children("bsdf");
   if (sides.empty() || sides.size() > 2)
-    failAt(reader.object().source, fmt::format("{} needs one or two bsdfs inside, not {}", reader.title(), sides.size()));
+    failAt(reader.object().source,
+           fmt::format("{} needs one or two bsdfs inside, not {}", reader.title(), sides.size()));
   TwoSidedMaterial twoSided;
   twoSided.front = readBsdf(context, *sides.front());
   twoSided.back = readBsdf(context, *sides.back());
@@ -124,7 +140,8 @@ const std::map<std::string, std::function<Kind(Context&, Reader&)>> kReaders = {
 
 Kind readKind(Context& context, const Object& object) {
   const auto found = kReaders.find(object.type);
-  if (found == kReaders.end()) throw UnsupportedError(object.source, fmt::format("bsdf '{}' is not supported", object.type));
+  if (found == kReaders.end())
+    throw UnsupportedError(object.source, fmt::format("bsdf '{}' is not supported", object.type));
   Reader reader(context, object);
   Kind kind = found->second(context, reader);
   reader.finish();

@@ -7,7 +7,8 @@ namespace {
 
 LightDescription readPoint(Reader& reader) {
   PointLight light;
-  if (reader.has("position") && reader.has("to_world")) reader.fail("position", "excludes to_world: give one or the other");
+  if (reader.has("position") && reader.has("to_world"))
+    reader.fail("position", "excludes to_world: give one or the other");
   light.position = reader.point("position", Vec3(0, 0, 0)) * reader.transform("to_world");
   light.intensity = reader.color("intensity", Spectrum(1.0f));
   return {light, reader.object().source};
@@ -40,7 +41,8 @@ void readEmitter(Context& context, const Object& object) {
 }
 
 Spectrum readAreaEmitter(Context& context, const Object& object) {
-  if (object.type != "area") throw UnsupportedError(object.source, fmt::format("emitter '{}' of a shape is not supported", object.type));
+  if (object.type != "area")
+    throw UnsupportedError(object.source, fmt::format("emitter '{}' of a shape is not supported", object.type));
   Reader reader(context, object);
   reader.ignore({"sampling_weight"});
   const Spectrum radiance = reader.color("radiance", Spectrum(1.0f));

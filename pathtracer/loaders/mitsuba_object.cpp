@@ -12,10 +12,13 @@
 namespace pt::mitsuba {
 namespace {
 
-const std::vector<std::string> kObjectTags = {"bsdf",    "emitter", "film",       "integrator", "medium",  "phase", "rfilter",
-                                              "sampler", "sensor",  "subsurface", "shape",      "texture", "volume"};
+const std::vector<std::string> kObjectTags = {"bsdf",  "emitter", "film",    "integrator", "medium",
+                                              "phase", "rfilter", "sampler", "sensor",     "subsurface",
+                                              "shape", "texture", "volume"};
 
-bool isObjectTag(const std::string& tag) { return std::find(kObjectTags.begin(), kObjectTags.end(), tag) != kObjectTags.end(); }
+bool isObjectTag(const std::string& tag) {
+  return std::find(kObjectTags.begin(), kObjectTags.end(), tag) != kObjectTags.end();
+}
 
 std::string attributeOr(const Element& element, const std::string& name, const std::string& fallback) {
   const auto found = element.attributes.find(name);
@@ -76,7 +79,8 @@ class ObjectReader {
   static void addProperty(const Element& element, Object& object) {
     const std::string written = attributeOr(element, "name", "");
     if (written.empty()) failAt(element.source, fmt::format("<{}> lacks the attribute 'name'", element.tag));
-    const auto [entry, isNew] = object.properties.emplace(canonicalName(written), Property{readValue(element), element.source});
+    const auto [entry, isNew] =
+        object.properties.emplace(canonicalName(written), Property{readValue(element), element.source});
     if (!isNew)
       failAt(element.source, fmt::format("property '{}' is given twice, first at {}", written, entry->second.source));
   }
@@ -137,7 +141,8 @@ std::string camelCaseName(const std::string& name) {
   for (std::size_t i = 0; i < name.size(); ++i) {
     if (name[i] == '_' && name.compare(i, std::string::npos, "_ior") == 0) return result + "IOR";
     const bool isAfterBar = i > 0 && name[i - 1] == '_';
-    if (name[i] != '_') result += isAfterBar ? static_cast<char>(std::toupper(static_cast<unsigned char>(name[i]))) : name[i];
+    if (name[i] != '_')
+      result += isAfterBar ? static_cast<char>(std::toupper(static_cast<unsigned char>(name[i]))) : name[i];
   }
   return result;
 }

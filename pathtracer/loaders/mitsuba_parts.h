@@ -7,7 +7,8 @@
 /// One reader per kind of plugin. All throw InputError, and UnsupportedError for a plugin that we do not have.
 namespace pt::mitsuba {
 
-/// Index into scene.materials; each object is read once. An unsupported BSDF that may be skipped becomes the one it wraps, or grey.
+/// Index into scene.materials; each object is read once. An unsupported BSDF that may be skipped becomes the one it
+/// wraps, or grey.
 int readBsdf(Context& context, const Object& object);
 
 /// Adds the shape (or, for a shapegroup, the group) to the scene.

@@ -12,7 +12,8 @@ namespace pt::mitsuba {
 namespace {
 
 const char* kindName(const Value& value) {
-  constexpr const char* kNames[] = {"a boolean", "an integer", "a number", "a string", "a point or vector", "a colour", "a transform"};
+  constexpr const char* kNames[] = {"a boolean",         "an integer", "a number",   "a string",
+                                    "a point or vector", "a colour",   "a transform"};
   static_assert(std::size(kNames) == std::variant_size_v<Value>);
   return kNames[value.index()];
 }
@@ -35,7 +36,9 @@ void Context::leaveOut(const UnsupportedError& error, const std::string& instead
   scene.skipped.push_back(fmt::format("{}: {}", error.reason, instead));
 }
 
-std::string Reader::spelled(const std::string& name) const { return m_context.isOld() ? camelCaseName(name) : name; }
+std::string Reader::spelled(const std::string& name) const {
+  return m_context.isOld() ? camelCaseName(name) : name;
+}
 
 void Reader::fail(const std::string& name, const std::string& message) const {
   const auto property = m_object.properties.find(name);
@@ -49,7 +52,9 @@ const Property* Reader::find(const std::string& name) {
   return found == m_object.properties.end() ? nullptr : &found->second;
 }
 
-bool Reader::has(const std::string& name) { return find(name) != nullptr; }
+bool Reader::has(const std::string& name) {
+  return find(name) != nullptr;
+}
 
 template <class T>
 const T* Reader::findAs(const std::string& name, const char* wanted) {
@@ -67,13 +72,15 @@ bool Reader::boolean(const std::string& name, bool fallback) {
 int Reader::integer(const std::string& name, int fallback) {
   const std::int64_t* value = findAs<std::int64_t>(name, "an integer");
   if (!value) return fallback;
-  if (*value < std::numeric_limits<int>::min() || *value > std::numeric_limits<int>::max()) fail(name, "is out of range");
+  if (*value < std::numeric_limits<int>::min() || *value > std::numeric_limits<int>::max())
+    fail(name, "is out of range");
   return static_cast<int>(*value);
 }
 
 float Reader::number(const std::string& name, float fallback) {
   const Property* property = find(name);
-  if (property && std::holds_alternative<std::int64_t>(property->value)) return static_cast<float>(std::get<std::int64_t>(property->value));
+  if (property && std::holds_alternative<std::int64_t>(property->value))
+    return static_cast<float>(std::get<std::int64_t>(property->value));
   const double* value = findAs<double>(name, "a number");
   return value ? static_cast<float>(*value) : fallback;
 }
@@ -90,11 +97,13 @@ Vec3 Reader::point(const std::string& name, const Vec3& fallback) {
 
 Spectrum Reader::color(const std::string& name, const Spectrum& fallback) {
   const Property* property = find(name);
-  if (property && (std::holds_alternative<double>(property->value) || std::holds_alternative<std::int64_t>(property->value)))
+  if (property &&
+      (std::holds_alternative<double>(property->value) || std::holds_alternative<std::int64_t>(property->value)))
     return Spectrum(number(name, 0));
   for (const Child& child : m_object.children) {
     if (child.name.empty() || canonicalName(child.name) != name) continue;
-    m_context.leaveOut(child.object->source, fmt::format("{} '{}' is not supported", child.object->tag, child.object->type));
+    m_context.leaveOut(child.object->source,
+                       fmt::format("{} '{}' is not supported", child.object->tag, child.object->type));
   }
   const Spectrum* value = findAs<Spectrum>(name, "a colour");
   return value ? *value : fallback;
@@ -110,8 +119,9 @@ int Reader::choice(const std::string& name, const std::vector<std::string>& word
   if (!value) return fallback;
   const auto found = std::find(words.begin(), words.end(), lowerCase(*value));
   if (found == words.end()) {
-    throw UnsupportedError(m_object.properties.at(name).source, fmt::format("{} '{}' of {} is not supported{}", spelled(name), *value, title(),
-                                                                            suggestName(*value, words)));
+    throw UnsupportedError(
+        m_object.properties.at(name).source,
+        fmt::format("{} '{}' of {} is not supported{}", spelled(name), *value, title(), suggestName(*value, words)));
   }
   return static_cast<int>(found - words.begin());
 }
@@ -124,7 +134,9 @@ std::filesystem::path Reader::file(const std::string& name) {
   return *found;
 }
 
-void Reader::ignore(std::initializer_list<const char*> names) { m_asked.insert(names.begin(), names.end()); }
+void Reader::ignore(std::initializer_list<const char*> names) {
+  m_asked.insert(names.begin(), names.end());
+}
 
 std::vector<const Object*> Reader::children(const std::string& tag) {
   m_askedTags.insert(tag);
@@ -147,7 +159,8 @@ void Reader::finish() {
   for (const Child& child : m_object.children) {
     const bool isParameter = !child.name.empty() && m_asked.contains(canonicalName(child.name));
     if (isParameter || m_askedTags.contains(child.object->tag)) continue;
-    m_context.leaveOut(child.object->source, fmt::format("{} '{}' inside of {} is not supported", child.object->tag, child.object->type, title()));
+    m_context.leaveOut(child.object->source, fmt::format("{} '{}' inside of {} is not supported", child.object->tag,
+                                                         child.object->type, title()));
   }
 }
 

@@ -14,10 +14,12 @@ using namespace mitsuba;
 /// "0.5.0" and "3.0.0": major and minor decide.
 double readVersion(const Element& scene) {
   const auto found = scene.attributes.find("version");
-  if (found == scene.attributes.end()) failAt(scene.source, "<scene> lacks the attribute 'version', e.g. version=\"3.0.0\"");
+  if (found == scene.attributes.end())
+    failAt(scene.source, "<scene> lacks the attribute 'version', e.g. version=\"3.0.0\"");
   double version = 0;
   const std::string& text = found->second;
-  if (std::from_chars(text.data(), text.data() + text.size(), version).ec != std::errc() || version < 0.4 || version >= 4)
+  if (std::from_chars(text.data(), text.data() + text.size(), version).ec != std::errc() || version < 0.4 ||
+      version >= 4)
     failAt(scene.source, fmt::format("scene version '{}' is not supported: 0.4 to 3 are", text));
   return version;
 }
@@ -41,7 +43,9 @@ void checkCounts(const Object& scene) {
   for (const Child& child : scene.children) {
     const int which = child.object->tag == "sensor" ? 0 : child.object->tag == "integrator" ? 1 : -1;
     if (which < 0) continue;
-    if (first[which]) failAt(child.object->source, fmt::format("the scene has a second {}; the first is at {}", child.object->tag, first[which]->source));
+    if (first[which])
+      failAt(child.object->source,
+             fmt::format("the scene has a second {}; the first is at {}", child.object->tag, first[which]->source));
     first[which] = child.object;
   }
 }

@@ -16,7 +16,8 @@ void readFocalLength(Reader& reader, PerspectiveCamera& camera) {
   if (text.ends_with("mm")) text.resize(text.size() - 2);
   const auto millimeters = parseNumber(text);
   if (!millimeters || *millimeters <= 0) reader.fail("focal_length", "must be a length such as '50mm'");
-  camera.fovDegrees = static_cast<float>(2 * std::atan(std::hypot(36.0, 24.0) / 2 / *millimeters) * 180 / 3.14159265358979323846);
+  camera.fovDegrees =
+      static_cast<float>(2 * std::atan(std::hypot(36.0, 24.0) / 2 / *millimeters) * 180 / 3.14159265358979323846);
   camera.fovAxis = FovAxis::Diagonal;
 }
 
@@ -33,7 +34,8 @@ PerspectiveCamera readPerspective(Context& context, Reader& reader) {
   }
   camera.nearClip = reader.number("near_clip", 1e-2f);
   camera.farClip = reader.number("far_clip", 1e4f);
-  if (!(camera.nearClip >= 0 && camera.farClip > camera.nearClip)) reader.fail("near_clip", "must be positive and below the far clip");
+  if (!(camera.nearClip >= 0 && camera.farClip > camera.nearClip))
+    reader.fail("near_clip", "must be positive and below the far clip");
   reader.ignore({"focus_distance", "shutter_open", "shutter_close", "fov", "focal_length"});
   if (reader.number("principal_point_offset_x", 0) != 0 || reader.number("principal_point_offset_y", 0) != 0)
     context.leaveOut(reader.object().source, "a principal point offset is not supported");
@@ -48,7 +50,9 @@ void readFilter(Context& context, Reader& film) {
     Reader reader(context, *filters.front());
     const std::string& type = reader.object().type;
     const auto expectDefault = [&](const char* name, float usual) {
-      if (reader.number(name, usual) != usual) throw UnsupportedError(reader.object().source, fmt::format("{} of {} other than {} is not supported", name, reader.title(), usual));
+      if (reader.number(name, usual) != usual)
+        throw UnsupportedError(reader.object().source,
+                               fmt::format("{} of {} other than {} is not supported", name, reader.title(), usual));
     };
     if (type == "box") {
       expectDefault("radius", 0.5f);
@@ -68,7 +72,8 @@ void readFilter(Context& context, Reader& film) {
 }
 
 void readFilm(Context& context, const Object& object) {
-  if (object.type != "hdrfilm" && object.type != "ldrfilm") throw UnsupportedError(object.source, fmt::format("film '{}' is not supported", object.type));
+  if (object.type != "hdrfilm" && object.type != "ldrfilm")
+    throw UnsupportedError(object.source, fmt::format("film '{}' is not supported", object.type));
   Reader reader(context, object);
   FilmDescription& film = context.scene.film;
   film.width = reader.integer("width", 768);
@@ -76,8 +81,8 @@ void readFilm(Context& context, const Object& object) {
   if (film.width < 1) reader.fail("width", "must be at least 1");
   if (film.height < 1) reader.fail("height", "must be at least 1");
   readFilter(context, reader);
-  reader.ignore({"banner", "pixel_format", "component_format", "file_format", "attach_log", "high_quality_edges", "sample_border",
-                 "gamma", "exposure", "tonemap_method", "key", "burn", "label", "compensate"});
+  reader.ignore({"banner", "pixel_format", "component_format", "file_format", "attach_log", "high_quality_edges",
+                 "sample_border", "gamma", "exposure", "tonemap_method", "key", "burn", "label", "compensate"});
   reader.finish();
 }
 
@@ -88,7 +93,8 @@ void readSampler(Context& context, const Object& object) {
   reader.ignore({"seed", "scramble", "dimension", "jitter"});
   const bool isRandom = object.type == "independent";
   context.scene.sampler = isRandom ? SamplerKind::Independent : SamplerKind::Sobol;
-  if (!isRandom && object.type != "sobol") context.scene.notes.push_back(fmt::format("{}: sampler '{}' is replaced by 'sobol'", object.source, object.type));
+  if (!isRandom && object.type != "sobol")
+    context.scene.notes.push_back(fmt::format("{}: sampler '{}' is replaced by 'sobol'", object.source, object.type));
   reader.finish();
 }
 
@@ -96,7 +102,8 @@ void readSampler(Context& context, const Object& object) {
 
 void readSensor(Context& context, const Object& object) {
   try {
-    if (object.type != "perspective") throw UnsupportedError(object.source, fmt::format("sensor '{}' is not supported", object.type));
+    if (object.type != "perspective")
+      throw UnsupportedError(object.source, fmt::format("sensor '{}' is not supported", object.type));
     Reader reader(context, object);
     for (const Object* film : reader.children("film")) readFilm(context, *film);
     for (const Object* sampler : reader.children("sampler")) readSampler(context, *sampler);

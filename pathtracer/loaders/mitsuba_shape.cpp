@@ -15,8 +15,10 @@ Kind readMeshFile(Context& context, Reader& reader, bool flipsV) {
   file.faceNormals = reader.boolean("face_normals", false);
   file.flipV = reader.boolean("flip_tex_coords", flipsV);
   reader.ignore({"collapse", "load_materials", "srgb"});
-  if (reader.has("max_smooth_angle")) context.leaveOut(reader.object().source, fmt::format("maxSmoothAngle of {} is not supported", reader.title()));
-  if (reader.has("shape_index")) throw UnsupportedError(reader.object().source, fmt::format("shapeIndex of {} is not supported", reader.title()));
+  if (reader.has("max_smooth_angle"))
+    context.leaveOut(reader.object().source, fmt::format("maxSmoothAngle of {} is not supported", reader.title()));
+  if (reader.has("shape_index"))
+    throw UnsupportedError(reader.object().source, fmt::format("shapeIndex of {} is not supported", reader.title()));
   return MeshShape{context.meshes.request(file, reader.object().source), file.faceNormals};
 }
 
@@ -68,7 +70,8 @@ std::optional<SpectrumParameter> readShapeEmission(Context& context, Reader& rea
 
 ShapeDescription readOneShape(Context& context, const Object& object) {
   const auto found = kReaders.find(object.type);
-  if (found == kReaders.end()) throw UnsupportedError(object.source, fmt::format("shape '{}' is not supported", object.type));
+  if (found == kReaders.end())
+    throw UnsupportedError(object.source, fmt::format("shape '{}' is not supported", object.type));
   Reader reader(context, object);
   ShapeDescription shape;
   shape.name = object.id;
@@ -102,7 +105,8 @@ void readGroup(Context& context, const Object& object) {
     if (shape->type == "instance" || shape->type == "shapegroup")
       throw UnsupportedError(shape->source, "a shapegroup inside of a shapegroup is not supported");
     appendShape(context, *shape, group.shapes);
-    if (!group.shapes.empty() && group.shapes.back().emission) failAt(shape->source, "a shape that emits light cannot be instanced");
+    if (!group.shapes.empty() && group.shapes.back().emission)
+      failAt(shape->source, "a shape that emits light cannot be instanced");
   }
   reader.finish();
   context.groups.emplace(&object, static_cast<int>(context.scene.groups.size()));

@@ -55,7 +55,8 @@ Vec3d vectorOf(const Element& element, double missing) {
     checkAttributes(element, {"name", "value", "angle"});
     return toVector(element, *value);
   }
-  return {numberAttribute(element, "x", missing), numberAttribute(element, "y", missing), numberAttribute(element, "z", missing)};
+  return {numberAttribute(element, "x", missing), numberAttribute(element, "y", missing),
+          numberAttribute(element, "z", missing)};
 }
 
 // ---------------------------------------------------------------- plain values
@@ -85,7 +86,8 @@ Spectrum readRgb(const Element& element) {
 }
 
 Spectrum readSpectrum(const Element& element) {
-  if (findAttribute(element, "filename")) throw UnsupportedError(element.source, "a spectrum read from a file is not supported");
+  if (findAttribute(element, "filename"))
+    throw UnsupportedError(element.source, "a spectrum read from a file is not supported");
   const std::string& text = attribute(element, "value");
   std::vector<SpectralSample> samples;
   for (const std::string_view piece : splitList(text)) {
@@ -134,9 +136,10 @@ Transform readTranslate(const Element& element) {
 Transform readLookAt(const Element& element) {
   checkAttributes(element, {"origin", "target", "up"});
   const std::string* up = findAttribute(element, "up");
-  const auto view = lookAt(toVector(element, attribute(element, "origin")), toVector(element, attribute(element, "target")),
-                           up ? toVector(element, *up) : Vec3d(0.0));
-  if (!view) failAt(element.source, fmt::format("<{}>: origin and target coincide, or 'up' points along the view", element.tag));
+  const auto view = lookAt(toVector(element, attribute(element, "origin")),
+                           toVector(element, attribute(element, "target")), up ? toVector(element, *up) : Vec3d(0.0));
+  if (!view)
+    failAt(element.source, fmt::format("<{}>: origin and target coincide, or 'up' points along the view", element.tag));
   return *view;
 }
 
@@ -163,7 +166,8 @@ Transform readTransform(const Element& element) {
   for (const Element& step : element.children) {
     const auto reader = kSteps.find(step.tag);
     if (reader == kSteps.end())
-      failAt(step.source, fmt::format("<transform> takes no <{}>{}", step.tag, suggestName(step.tag, {"translate", "rotate", "scale", "lookat", "matrix"})));
+      failAt(step.source, fmt::format("<transform> takes no <{}>{}", step.tag,
+                                      suggestName(step.tag, {"translate", "rotate", "scale", "lookat", "matrix"})));
     total = total * reader->second(step);
   }
   return total;
@@ -195,7 +199,9 @@ const std::map<std::string, ValueReader>& valueReaders() {
 
 }  // namespace
 
-bool isValueTag(const std::string& tag) { return valueReaders().contains(tag); }
+bool isValueTag(const std::string& tag) {
+  return valueReaders().contains(tag);
+}
 
 const std::vector<std::string>& valueTags() {
   static const std::vector<std::string> kTags = [] {

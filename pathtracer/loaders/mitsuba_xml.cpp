@@ -30,7 +30,8 @@ class SourceFile {
   const std::filesystem::path& path() const { return m_path; }
 
   SourceLocation at(std::ptrdiff_t offset) const {
-    const auto end = std::lower_bound(m_lineEnds.begin(), m_lineEnds.end(), static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)));
+    const auto end = std::lower_bound(m_lineEnds.begin(), m_lineEnds.end(),
+                                      static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)));
     return fmt::format("{}:{}", m_path.string(), end - m_lineEnds.begin() + 1);
   }
 
@@ -41,11 +42,14 @@ class SourceFile {
   pugi::xml_document m_xml;
 };
 
-bool isNameCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+bool isNameCharacter(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
 
 class XmlReader {
  public:
-  explicit XmlReader(const std::map<std::string, std::string>& variables) : m_given(variables), m_variables(variables) {}
+  explicit XmlReader(const std::map<std::string, std::string>& variables)
+      : m_given(variables), m_variables(variables) {}
 
   XmlScene read(const std::filesystem::path& path) {
     const SourceFile file(path);
@@ -60,13 +64,15 @@ class XmlReader {
  private:
   static void checkRoot(const SourceFile& file) {
     if (std::string_view(file.root().name()) != "scene")
-      failAt(file.at(file.root().offset_debug()), fmt::format("the root element is <{}>; a Mitsuba scene starts with <scene>", file.root().name()));
+      failAt(file.at(file.root().offset_debug()),
+             fmt::format("the root element is <{}>; a Mitsuba scene starts with <scene>", file.root().name()));
   }
 
   void checkGivenVariables(const std::filesystem::path& path) const {
     for (const auto& [name, value] : m_given)
       if (!m_used.contains(name))
-        throw InputError(fmt::format("{}: the scene uses no variable '{}'{}", path.string(), name, suggestName(name, {m_used.begin(), m_used.end()})));
+        throw InputError(fmt::format("{}: the scene uses no variable '{}'{}", path.string(), name,
+                                     suggestName(name, {m_used.begin(), m_used.end()})));
   }
 
   Element readElement(const SourceFile& file, pugi::xml_node node, int depth) {
@@ -99,11 +105,14 @@ class XmlReader {
 
   static const std::string& attribute(const Element& element, const std::string& name) {
     const auto found = element.attributes.find(name);
-    if (found == element.attributes.end()) failAt(element.source, fmt::format("<{}> lacks the attribute '{}'", element.tag, name));
+    if (found == element.attributes.end())
+      failAt(element.source, fmt::format("<{}> lacks the attribute '{}'", element.tag, name));
     return found->second;
   }
 
-  void setDefault(const Element& element) { m_variables.emplace(attribute(element, "name"), attribute(element, "value")); }
+  void setDefault(const Element& element) {
+    m_variables.emplace(attribute(element, "name"), attribute(element, "value"));
+  }
 
   void addPath(const SourceFile& file, const Element& element) {
     const std::filesystem::path folder = file.folder() / attribute(element, "value");
@@ -156,7 +165,8 @@ class XmlReader {
   [[noreturn]] void failUnknownVariable(std::string_view name, const SourceLocation& source) const {
     std::vector<std::string> known;
     for (const auto& [variable, value] : m_variables) known.push_back(variable);
-    failAt(source, fmt::format("the variable ${} has no value: give it one, or a <default>{}", name, suggestName(name, known)));
+    failAt(source,
+           fmt::format("the variable ${} has no value: give it one, or a <default>{}", name, suggestName(name, known)));
   }
 
   std::map<std::string, std::string> m_given, m_variables;

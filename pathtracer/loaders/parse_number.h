@@ -8,7 +8,8 @@
 
 namespace pt {
 
-/// The whole text as a finite number; none for anything else ("nan", "1e999", "1.5m", ""). Blanks around it are allowed.
+/// The whole text as a finite number; none for anything else ("nan", "1e999", "1.5m", ""). Blanks around it are
+/// allowed.
 std::optional<double> parseNumber(std::string_view text);
 
 /// The whole text as a decimal integer.

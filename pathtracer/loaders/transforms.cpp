@@ -5,7 +5,9 @@
 namespace pt {
 namespace {
 
-bool isUsableLength(double length) { return std::isfinite(length) && length > 0; }
+bool isUsableLength(double length) {
+  return std::isfinite(length) && length > 0;
+}
 
 Vec3d anyPerpendicular(const Vec3d& v) {
   const Vec3d axis = std::abs(v.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);

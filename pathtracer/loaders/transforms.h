@@ -25,6 +25,8 @@ std::optional<Transform> lookAt(const Vec3d& origin, const Vec3d& target, const 
 /// From the 16 numbers of a column-vector matrix, row by row.
 Transform fromColumnVectorMatrix(const double (&rows)[16]);
 
-inline Matrix4 toFloat(const Transform& m) { return Matrix4(m); }
+inline Matrix4 toFloat(const Transform& m) {
+  return Matrix4(m);
+}
 
 }  // namespace pt
