@@ -18,7 +18,8 @@ bool isUsable(const RadianceSample& s) noexcept {
   const auto finite = [](const Imath::V3f& v) {
     return std::abs(v.x) <= kMax && std::abs(v.y) <= kMax && std::abs(v.z) <= kMax;
   };
-  return s.radiance >= 0 && s.radiance <= kMax && s.pdf > 0 && s.pdf <= kMax && finite(s.position) && finite(s.direction);
+  return s.radiance >= 0 && s.radiance <= kMax && s.pdf > 0 && s.pdf <= kMax && finite(s.position) &&
+         finite(s.direction);
 }
 
 /// A sample on its way into a leaf.
@@ -27,8 +28,8 @@ struct Splat {
   float value;  ///< radiance / pdf
 };
 
-/// A run of consecutive samples, the unit of parallel work. Runs are cut by the number of samples alone, and the partition by leaf
-/// is stable, so every leaf sees its samples in their order on any number of threads.
+/// A run of consecutive samples, the unit of parallel work. Runs are cut by the number of samples alone, and the
+/// partition by leaf is stable, so every leaf sees its samples in their order on any number of threads.
 struct Run {
   std::size_t begin = 0, end = 0;
   std::vector<std::uint32_t> slotOfLeaf;  ///< first the number of splats of each leaf, then where the next one goes
@@ -45,7 +46,8 @@ std::vector<Run> cutRuns(std::size_t sampleCount) {
 }
 
 /// Finds each sample's leaf and counts.
-void assignLeaves(const Field::State& state, const SampleSequence& samples, Run& run, std::vector<std::uint32_t>& leafOf) {
+void assignLeaves(const Field::State& state, const SampleSequence& samples, Run& run,
+                  std::vector<std::uint32_t>& leafOf) {
   run.slotOfLeaf.assign(state.leaves.size(), 0);
   samples.forEach(run.begin, run.end, [&](std::size_t i, const RadianceSample& sample) {
     if (!isUsable(sample)) {
@@ -75,8 +77,8 @@ std::vector<std::size_t> layOut(std::vector<Run>& runs, std::size_t leafCount) {
   return begin;
 }
 
-void scatter(const FieldSettings& settings, const SampleSequence& samples, Run& run, const std::vector<std::uint32_t>& leafOf,
-             std::vector<Splat>& splats) {
+void scatter(const FieldSettings& settings, const SampleSequence& samples, Run& run,
+             const std::vector<std::uint32_t>& leafOf, std::vector<Splat>& splats) {
   samples.forEach(run.begin, run.end, [&](std::size_t i, const RadianceSample& sample) {
     if (leafOf[i] == kDropped) return;
     splats[run.slotOfLeaf[leafOf[i]]++] = {toSquarePoint(sphereToSquare(settings.directionMap, sample.direction)),

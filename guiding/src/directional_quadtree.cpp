@@ -19,9 +19,9 @@ double DirectionalQuadtree::build() {
 DirectionalQuadtree DirectionalQuadtree::refined(double total, double threshold, int maxDepth) const {
   constexpr std::uint32_t kBelowLeaf = ~0u;
   struct Cell {
-    std::uint32_t source;      ///< node of this tree, or kBelowLeaf
+    std::uint32_t source;  ///< node of this tree, or kBelowLeaf
     std::array<double, 4> sum;
-    int depth;                 ///< of the node's cells
+    int depth;  ///< of the node's cells
   };
 
   DirectionalQuadtree next;

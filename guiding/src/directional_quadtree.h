@@ -48,8 +48,8 @@ class DirectionalQuadtree {
   /// Sums the leaf cells into their parents and returns the total.
   double build();
 
-  /// The tree to learn into next: cells with more than `threshold` of the total flux are subdivided, up to `maxDepth`; those
-  /// with less are merged; below a former leaf the flux counts as evenly spread [Müller et al. 2017, Sec. 3.2].
+  /// The tree to learn into next: cells with more than `threshold` of the total flux are subdivided, up to `maxDepth`;
+  /// those with less are merged; below a former leaf the flux counts as evenly spread [Müller et al. 2017, Sec. 3.2].
   /// All sums are zero. Requires build() and a positive total.
   DirectionalQuadtree refined(double total, double threshold, int maxDepth) const;
 

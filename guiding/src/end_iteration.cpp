@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "freeze.h"
 #include "training.h"
 
 namespace guiding {
@@ -13,7 +14,8 @@ struct FrozenLeaf {
   DirectionalQuadtree next;
 };
 
-/// The density of a leaf and the quadtree it learns into next. A leaf that learned nothing keeps its topology and offers no guide.
+/// The density of a leaf and the quadtree it learns into next. A leaf that learned nothing keeps its topology and
+/// offers no guide.
 FrozenLeaf freezeLeaf(SpatialLeaf& leaf, const FieldSettings& settings) {
   const double total = leaf.building.build();
   FrozenLeaf frozen;
@@ -37,29 +39,28 @@ void publish(Field::State& state, std::vector<FrozenLeaf>& frozen) {
   nodes.reserve(nodeCount);
 
   for (std::size_t leaf = 0; leaf < frozen.size(); ++leaf) {
-    FrozenTree& tree = frozen[leaf].tree;
-    if (tree.nodes.empty()) {
-      state.densityOfLeaf[leaf] = GuidingDensity::kNoGuide;
-      continue;
-    }
-    state.densityOfLeaf[leaf] = std::uint32_t(trees.size());
-    trees.push_back({std::uint32_t(nodes.size()), std::uint32_t(tree.nodes.size()), state.settings.bsdfSamplingFraction,
-                     tree.emptyArea});
-    nodes.insert(nodes.end(), tree.nodes.begin(), tree.nodes.end());
-    tree.nodes = {};
+    FrozenTree& from = frozen[leaf].tree;
+    state.densityOfLeaf[leaf] = from.guided ? std::uint32_t(trees.size()) : GuidingDensity::kNoGuide;
+    if (!from.guided) continue;
+    from.tree.firstNode = std::uint32_t(nodes.size());
+    from.tree.bsdfSamplingFraction = state.settings.bsdfSamplingFraction;
+    trees.push_back(from.tree);
+    nodes.insert(nodes.end(), from.nodes.begin(), from.nodes.end());
+    from.nodes = {};
   }
   trees.shrink_to_fit();
   state.hasGuide = !trees.empty();
   state.density.assign(std::move(trees), std::move(nodes));
 }
 
-/// How often each leaf is halved: until its share of the samples falls below the threshold of the coming iteration, which has
-/// twice the passes [Müller et al. 2017, Sec. 3.3].
+/// How often each leaf is halved: until its share of the samples falls below the threshold of the coming iteration,
+/// which has twice the passes [Müller et al. 2017, Sec. 3.3].
 std::vector<int> splitLevels(const Field::State& state, double spp) {
   const double threshold = state.settings.sTreeThreshold * std::sqrt(2 * spp / 4);
   std::vector<int> levels(state.leaves.size(), 0);
   for (std::size_t leaf = 0; leaf < levels.size(); ++leaf)
-    for (double count = double(state.leaves[leaf].sampleCount); count > threshold && levels[leaf] < SpatialTree::kMaxDepth; count /= 2)
+    for (double count = double(state.leaves[leaf].sampleCount);
+         count > threshold && levels[leaf] < SpatialTree::kMaxDepth; count /= 2)
       ++levels[leaf];
   return levels;
 }

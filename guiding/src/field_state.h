@@ -12,18 +12,21 @@ namespace guiding {
 
 /// One leaf of the spatial tree.
 struct SpatialLeaf {
-  DirectionalQuadtree building;                          ///< learns during this iteration
-  std::uint64_t sampleCount = 0;                         ///< of this iteration
+  DirectionalQuadtree building;   ///< learns during this iteration
+  std::uint64_t sampleCount = 0;  ///< of this iteration
 };
 
 struct Field::State {
-  State(const Imath::Box3f& bounds, const FieldSettings& s) : settings(s), tree(bounds), leaves(1), density(s.directionMap) {}
+  State(const Imath::Box3f& box, const FieldSettings& s)
+      : settings(s), bounds(box), tree(box), leaves(1), density(s.directionMap) {}
 
   FieldSettings settings;
+  Imath::Box3f bounds;  ///< as the host gave them
   SpatialTree tree;
-  std::vector<SpatialLeaf> leaves;                 ///< by leaf index of `tree`
-  GuidingDensity density;                          ///< frozen: what bind() offers
-  std::vector<std::uint32_t> densityOfLeaf{GuidingDensity::kNoGuide};  ///< by leaf index; leaves split from one share its tree
+  std::vector<SpatialLeaf> leaves;  ///< by leaf index of `tree`
+  GuidingDensity density;           ///< frozen: what bind() offers
+  std::vector<std::uint32_t> densityOfLeaf{
+      GuidingDensity::kNoGuide};  ///< by leaf index; leaves split from one share its tree
 
   int iterations = 0;
   std::uint64_t samples = 0, droppedSamples = 0, outsideSamples = 0;
@@ -32,5 +35,8 @@ struct Field::State {
 
   std::size_t memoryBytes() const;
 };
+
+/// Finite and not inverted.
+bool areUsableBounds(const Imath::Box3f& bounds);
 
 }  // namespace guiding

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -10,25 +11,55 @@
 namespace guiding {
 
 /// The frozen quadtrees of all spatial leaves: compensated, normalised, immutable, sampled lock-free.
+///
+/// The top three levels of a quadtree are one grid of 8 x 8 cells, found and sampled in one step each; the levels below
+/// are nodes of four cells. Cells of a quadtree that are coarser than the grid are spread evenly over it.
 class GuidingDensity {
  public:
   static constexpr std::uint32_t kNoGuide = ~0u;
+  static constexpr int kGridDepth = 3;
+  static constexpr int kGridSize = 1 << kGridDepth;
+  static constexpr int kGridCells = kGridSize * kGridSize;
 
+  /// Four cells, by conditional probabilities. A density is what these floats say: sample() and pdf() read the same
+  /// ones, and the shares of siblings add up to 1 by construction.
   struct Node {
-    float share[4];       ///< of the node's mass, cells x + 2 y; they sum to 1
-    QuadtreeLinks links;
+    float column0;        ///< probability of the half x < 1/2
+    float row0[2];        ///< of the half y < 1/2, given either column
+    QuadtreeLinks links;  ///< within the tree's nodes
+
+    float share(int cell) const noexcept {
+      const int column = cell & 1;
+      const float x = column ? 1 - column0 : column0;
+      return x * (cell >> 1 ? 1 - row0[column] : row0[column]);
+    }
   };
 
-  /// One spatial leaf's share of the node array.
-  struct Tree {
-    std::uint32_t root = 0;
-    std::uint32_t nodeCount = 0;
+  /// One spatial leaf.
+  struct alignas(32) Tree {
+    std::array<float, kGridSize> columnUpTo{};  ///< upTo[8 x]
+    std::array<float, kGridCells + 1> upTo{};   ///< mass of all grid cells 8 x + y before this one; ends with 1
     float bsdfSamplingFraction = 1;
-    float emptyArea = 0;  ///< share of the sphere where the density is zero
+    float emptyArea = 0;          ///< share of the sphere where the density is zero
+    std::uint32_t firstNode = 0;  ///< in the array of all trees' nodes
+    std::uint32_t nodeCount = 0;
+    std::uint64_t subdivided = 0;  ///< bit c: cell c goes on in a node; those nodes stand first, in this order
+
+    float mass(int cell) const noexcept { return upTo[cell + 1] - upTo[cell]; }
+    bool isLeafCell(int cell) const noexcept { return !(subdivided >> cell & 1u); }
+    std::uint32_t nodeOfCell(int cell) const noexcept {
+      return std::uint32_t(__builtin_popcountll(subdivided & ((std::uint64_t(1) << cell) - 1)));
+    }
   };
 
   GuidingDensity() = default;
   explicit GuidingDensity(DirectionMap map) : m_map(map) {}
+
+  /// Starts to bring a tree's grid near, while the host still evaluates its BSDF.
+  void prefetch(std::uint32_t index) const noexcept {
+    const char* bytes = reinterpret_cast<const char*>(&m_trees[index]);
+    for (std::size_t offset = 0; offset < sizeof(Tree); offset += 64) __builtin_prefetch(bytes + offset);
+  }
 
   /// Draws from tree `index`. The density returned is that of the returned float direction.
   DirectionSample sample(std::uint32_t index, const Imath::V2f& u) const noexcept;
@@ -37,31 +68,22 @@ class GuidingDensity {
   const Tree& tree(std::uint32_t index) const noexcept { return m_trees[index]; }
   const std::vector<Tree>& trees() const noexcept { return m_trees; }
   const std::vector<Node>& nodes() const noexcept { return m_nodes; }
-  std::size_t memoryBytes() const noexcept { return m_nodes.capacity() * sizeof(Node) + m_trees.capacity() * sizeof(Tree); }
+  std::size_t memoryBytes() const noexcept {
+    return m_nodes.capacity() * sizeof(Node) + m_trees.capacity() * sizeof(Tree);
+  }
+  /// Depth of the deepest cell of a tree; the grid alone is kGridDepth.
   int maxDepth(std::uint32_t index) const;
 
-  /// Takes over trees and nodes whose roots and links have been laid out already.
+  /// Takes over trees and nodes that have been laid out already.
   void assign(std::vector<Tree> trees, std::vector<Node> nodes) {
     m_trees = std::move(trees);
     m_nodes = std::move(nodes);
   }
 
  private:
-  float squareDensity(const Node* root, SquarePoint point) const noexcept;
-
   DirectionMap m_map = DirectionMap::Cylinder;
   std::vector<Tree> m_trees;
   std::vector<Node> m_nodes;
 };
-
-/// One spatial leaf, frozen: links are relative to its root. No nodes: nothing to guide with.
-struct FrozenTree {
-  std::vector<GuidingDensity::Node> nodes;
-  float emptyArea = 0;
-};
-
-/// Freezes a built quadtree: compensates its leaf cells against a uniform density, then sums up.
-/// `assumedFraction` is the BSDF share that is compensated for, never above the share that is sampled.
-FrozenTree freeze(const DirectionalQuadtree& learned, CompensationForm form, float assumedFraction);
 
 }  // namespace guiding

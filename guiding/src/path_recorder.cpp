@@ -6,12 +6,15 @@
 namespace guiding {
 
 namespace {
-float mean(const Imath::V3f& c) noexcept { return (c.x + c.y + c.z) * (1.0f / 3.0f); }
+float mean(const Imath::V3f& c) noexcept {
+  return (c.x + c.y + c.z) * (1.0f / 3.0f);
+}
 }  // namespace
 
 void PathRecorder::finish(SampleBuffer& out) {
-  // Radiance that arrives along a vertex' ray: what its end emits, plus what its end scatters on, divided by the chance that the
-  // path was allowed to find that out. From the end of the path to its start [Müller et al. 2017, Sec. 3, without their division].
+  // Radiance that arrives along a vertex' ray: what its end emits, plus what its end scatters on, divided by the chance
+  // that the path was allowed to find that out. From the end of the path to its start [Müller et al. 2017, Sec. 3,
+  // without their division].
   Imath::V3f scattered(0, 0, 0);
   for (std::size_t i = m_vertices.size(); i-- > 0;) {
     Vertex& v = m_vertices[i];

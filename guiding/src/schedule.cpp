@@ -6,7 +6,8 @@
 namespace guiding {
 
 namespace {
-/// Below this many samples per pixel the variance estimates are too rough to end training on [Müller et al. 2017, authors' code].
+/// Below this many samples per pixel the variance estimates are too rough to end training on [Müller et al. 2017,
+/// authors' code].
 constexpr std::int64_t kAutomaticMinSpp = 256;
 }  // namespace
 
@@ -38,8 +39,9 @@ IterationPlan TrainingSchedule::next() const {
 
   const int doublings = std::min(plan.index, 30);
   plan.spp = std::int64_t(m_settings.sppPerPass) << doublings;
-  const double expectedCost =
-      m_sppBudget > 0 ? double(plan.spp) : m_iterations.empty() ? 0.0 : 2 * m_iterations.back().outcome.seconds;
+  const double expectedCost = m_sppBudget > 0        ? double(plan.spp)
+                              : m_iterations.empty() ? 0.0
+                                                     : 2 * m_iterations.back().outcome.seconds;
 
   plan.keepsDensity = m_settings.combination == SampleCombination::Automatic && trainingShouldEnd();
   // An iteration that would leave less than twice itself takes the rest: no tiny last iteration.

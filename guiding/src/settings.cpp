@@ -3,7 +3,9 @@
 namespace guiding {
 
 namespace {
-Error outOfRange(const char* text) { return {ErrorCode::InvalidArgument, text}; }
+Error outOfRange(const char* text) {
+  return {ErrorCode::InvalidArgument, text};
+}
 }  // namespace
 
 Status FieldSettings::validate() const {
@@ -11,8 +13,10 @@ Status FieldSettings::validate() const {
   if (!(sTreeThreshold >= 1)) return outOfRange("sTreeThreshold must be at least 1");
   if (!(dTreeThreshold > 0 && dTreeThreshold < 1)) return outOfRange("dTreeThreshold must lie in (0, 1)");
   if (maxDTreeDepth < 1 || maxDTreeDepth > 20) return outOfRange("maxDTreeDepth must lie in [1, 20]");
-  if (!(bsdfSamplingFraction > 0 && bsdfSamplingFraction <= 1)) return outOfRange("bsdfSamplingFraction must lie in (0, 1]");
-  if (!(compensation.strength >= 0 && compensation.strength <= 1)) return outOfRange("compensation.strength must lie in [0, 1]");
+  if (!(bsdfSamplingFraction > 0 && bsdfSamplingFraction <= 1))
+    return outOfRange("bsdfSamplingFraction must lie in (0, 1]");
+  if (!(compensation.strength >= 0 && compensation.strength <= 1))
+    return outOfRange("compensation.strength must lie in [0, 1]");
   return Success{};
 }
 

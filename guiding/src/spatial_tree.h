@@ -37,8 +37,8 @@ class SpatialTree {
   std::size_t memoryBytes() const noexcept { return m_nodes.capacity() * sizeof(std::uint32_t); }
   int maxDepth() const noexcept;
 
-  /// Replaces every leaf i by 2^levels[i] leaves. Returns for each new leaf the old leaf it came from; the first child of a
-  /// split leaf keeps its index.
+  /// Replaces every leaf i by 2^levels[i] leaves. Returns for each new leaf the old leaf it came from; the first child
+  /// of a split leaf keeps its index.
   std::vector<std::uint32_t> split(const std::vector<int>& levels);
 
   /// Node words: kLeafBit | leaf index, or the index of the first of two children. For writing and reading fields.

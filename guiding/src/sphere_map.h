@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "guiding/settings.h"
+#include "quarter_turn.h"
 
 namespace guiding {
 
@@ -33,18 +34,23 @@ inline SquarePoint toSquarePoint(const Imath::V2f& uv) noexcept {
 
 namespace detail {
 
-// sin and cos of 2 pi times cylinder's v; sinTheta = 2 sqrt(u (1-u)) avoids the cancellation of 1 - cos^2.
 inline Imath::V3f cylinderToSphere(const Imath::V2f& uv) noexcept {
+  // 2 sqrt(u (1 - u)) avoids the cancellation of 1 - cos^2.
   const float cosTheta = 2 * uv.x - 1;
   const float sinTheta = 2 * std::sqrt(std::max(0.0f, uv.x * (1 - uv.x)));
-  const float phi = 2 * kPiF * uv.y;
-  return {sinTheta * std::cos(phi), sinTheta * std::sin(phi), cosTheta};
+  const float turn = 4 * uv.y;
+  const int quadrant = int(turn);
+  const SinCos a = quarterSinCos(turn - float(quadrant));
+  // Each quarter turn takes (cos, sin) to (-sin, cos).
+  const bool odd = quadrant & 1;
+  const float c = odd ? a.sin : a.cos, s = odd ? a.cos : a.sin;
+  return {sinTheta * (quadrant == 1 || quadrant == 2 ? -c : c), sinTheta * (quadrant >= 2 ? -s : s), cosTheta};
 }
 
 inline Imath::V2f sphereToCylinder(const Imath::V3f& w) noexcept {
-  float v = std::atan2(w.y, w.x) * (0.5f / kPiF);
-  if (v < 0) v += 1;
-  return {(w.z + 1) * 0.5f, v};
+  const float angle = quarterAngle(std::abs(w.y), std::abs(w.x));
+  const float half = w.x < 0 ? 2 - angle : angle;
+  return {(w.z + 1) * 0.5f, (w.y < 0 ? 4 - half : half) * 0.25f};
 }
 
 // Equal-area octahedron [Clarberg 2008, Sec. 3].
@@ -53,9 +59,9 @@ inline Imath::V3f octahedronToSphere(const Imath::V2f& uv) noexcept {
   const float ax = std::abs(px), ay = std::abs(py);
   const float signedDistance = 1 - (ax + ay);
   const float r = 1 - std::abs(signedDistance);
-  const float phi = r > 0 ? ((ay - ax) / r + 1) * (kPiF / 4) : 0.0f;
+  const SinCos a = quarterSinCos(r > 0 ? std::clamp((ay - ax) / r * 0.5f + 0.5f, 0.0f, 1.0f) : 0.0f);
   const float sinTheta = r * std::sqrt(2 - r * r);
-  return {std::copysign(sinTheta * std::cos(phi), px), std::copysign(sinTheta * std::sin(phi), py),
+  return {std::copysign(sinTheta * a.cos, px), std::copysign(sinTheta * a.sin, py),
           std::copysign(1 - r * r, signedDistance)};
 }
 
@@ -63,20 +69,15 @@ inline Imath::V2f sphereToOctahedron(const Imath::V3f& w) noexcept {
   const float ax = std::abs(w.x), ay = std::abs(w.y);
   // r^2 = 1 - |z|, without the cancellation.
   const float r = std::sqrt((ax * ax + ay * ay) / (1 + std::abs(w.z)));
-  const float share = std::atan2(ay, ax) * (2 / kPiF);
-  float y = share * r;
-  float x = r - y;
-  if (w.z < 0) {
-    const float folded = 1 - y;
-    y = 1 - x;
-    x = folded;
-  }
-  return {(std::copysign(x, w.x) + 1) * 0.5f, (std::copysign(y, w.y) + 1) * 0.5f};
+  const float y = quarterAngle(ay, ax) * r, x = r - y;
+  const bool below = w.z < 0;
+  return {(std::copysign(below ? 1 - y : x, w.x) + 1) * 0.5f, (std::copysign(below ? 1 - x : y, w.y) + 1) * 0.5f};
 }
 
 }  // namespace detail
 
-/// Area-preserving map of the unit square onto the unit sphere. Density per solid angle = density on the square / (4 pi).
+/// Area-preserving map of the unit square onto the unit sphere. Density per solid angle = density on the square / (4
+/// pi).
 inline Imath::V3f squareToSphere(DirectionMap map, const Imath::V2f& uv) noexcept {
   return map == DirectionMap::Cylinder ? detail::cylinderToSphere(uv) : detail::octahedronToSphere(uv);
 }

@@ -1,5 +1,6 @@
 #include "validate.h"
 
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -13,31 +14,47 @@ Error violation(const std::string& what, std::size_t index) {
 
 Status validateBuilding(const SpatialLeaf& leaf, std::size_t index, int maxDepth) {
   const auto& nodes = leaf.building.nodes();
-  if (!linksAreSound(nodes.data(), nodes.size(), maxDepth)) return violation("links of the quadtree of spatial leaf", index);
+  if (!linksAreSound(nodes.data(), nodes.size(), 1, 1, maxDepth))
+    return violation("links of the quadtree of spatial leaf", index);
   for (const auto& node : nodes)
     for (const double sum : node.sum)
       if (!(sum >= 0) || !std::isfinite(sum)) return violation("flux of a quadtree cell of spatial leaf", index);
   return Success{};
 }
 
+bool gridIsSound(const GuidingDensity::Tree& tree) {
+  if (tree.upTo.front() != 0 || tree.upTo.back() != 1) return false;
+  for (int cell = 0; cell < GuidingDensity::kGridCells; ++cell) {
+    if (!(tree.mass(cell) >= 0) || (tree.mass(cell) == 0 && !tree.isLeafCell(cell))) return false;
+    if (cell % GuidingDensity::kGridSize == 0 && tree.columnUpTo[cell / GuidingDensity::kGridSize] != tree.upTo[cell])
+      return false;
+  }
+  return true;
+}
+
+bool isProbability(float p) {
+  return p >= 0 && p <= 1;
+}
+
 Status validateFrozen(const GuidingDensity& density, std::size_t index, int maxDepth) {
   const GuidingDensity::Tree& tree = density.trees()[index];
-  if (tree.nodeCount == 0 || std::size_t(tree.root) + tree.nodeCount > density.nodes().size())
+  if (std::size_t(tree.firstNode) + tree.nodeCount > density.nodes().size())
     return violation("extent of frozen tree", index);
-  const GuidingDensity::Node* nodes = density.nodes().data() + tree.root;
-  if (!linksAreSound(nodes, tree.nodeCount, maxDepth)) return violation("links of frozen tree", index);
-  if (!(tree.bsdfSamplingFraction > 0 && tree.bsdfSamplingFraction <= 1)) return violation("fraction of frozen tree", index);
+  const GuidingDensity::Node* nodes = density.nodes().data() + tree.firstNode;
+  const auto roots = std::size_t(std::popcount(tree.subdivided));
+  if (!linksAreSound(nodes, tree.nodeCount, roots, GuidingDensity::kGridDepth + 1, maxDepth))
+    return violation("links of frozen tree", index);
+  if (!gridIsSound(tree)) return violation("grid of frozen tree", index);
+  if (!(tree.bsdfSamplingFraction > 0 && tree.bsdfSamplingFraction <= 1))
+    return violation("fraction of frozen tree", index);
   if (!(tree.emptyArea >= 0 && tree.emptyArea < 1)) return violation("empty area of frozen tree", index);
 
   for (std::uint32_t i = 0; i < tree.nodeCount; ++i) {
-    double sum = 0;
-    for (int c = 0; c < 4; ++c) {
-      const float share = nodes[i].share[c];
-      if (!(share >= 0 && share <= 1)) return violation("share of a cell of frozen tree", index);
-      if (share == 0 && !nodes[i].links.isLeaf(c)) return violation("empty subtree kept in frozen tree", index);
-      sum += share;
-    }
-    if (std::abs(sum - 1) > 4e-7) return violation("shares do not add up to 1 in frozen tree", index);
+    const GuidingDensity::Node& node = nodes[i];
+    if (!isProbability(node.column0) || !isProbability(node.row0[0]) || !isProbability(node.row0[1]))
+      return violation("share of a cell of frozen tree", index);
+    for (int c = 0; c < 4; ++c)
+      if (!node.links.isLeaf(c) && !(node.share(c) > 0)) return violation("empty subtree kept in frozen tree", index);
   }
   return Success{};
 }

@@ -7,14 +7,14 @@ namespace guiding {
 /// Field::validate().
 Status validateState(const Field::State& state);
 
-/// Links of a tree of `count` nodes: every node but the root is the child of exactly one node before it, and no deeper than `maxDepth`.
-/// Works for both kinds of quadtree node.
+/// Links of a breadth-first forest of `count` nodes whose first `roots` nodes are the roots, with cells at `rootDepth`:
+/// every other node is the child of exactly one node before it, and no cell is deeper than `maxDepth`. Works for both
+/// kinds of quadtree node.
 template <class Node>
-bool linksAreSound(const Node* nodes, std::size_t count, int maxDepth) {
-  std::vector<int> depth(count, 0);
-  std::size_t next = 1;
-  if (count == 0) return false;
-  depth[0] = 1;
+bool linksAreSound(const Node* nodes, std::size_t count, std::size_t roots, int rootDepth, int maxDepth) {
+  if (roots > count) return false;
+  std::vector<int> depth(count, rootDepth);
+  std::size_t next = roots;
   for (std::size_t i = 0; i < count; ++i) {
     const QuadtreeLinks links = nodes[i].links;
     if (links.mask > 15) return false;

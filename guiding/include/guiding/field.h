@@ -17,11 +17,11 @@ namespace guiding {
 
 /// The SD-tree [Müller et al. 2017]: learns incident radiance from RadianceSamples and offers a density to sample it.
 ///
-/// A field is trained in iterations: accumulate() any number of times, then endIteration(), which freezes what was learned
-/// into the density that bind() offers during the next iteration and refines the tree. bind() and everything on a
-/// GuidingDistribution is lock-free and may be called from any thread, but not during endIteration(). accumulate() and
-/// endIteration() are called by one thread at a time; they spread their work over the caller's oneTBB task arena and give the
-/// same bits on any number of threads. Several fields may live side by side.
+/// A field is trained in iterations: accumulate() any number of times, then endIteration(), which freezes what was
+/// learned into the density that bind() offers during the next iteration and refines the tree. bind() and everything on
+/// a GuidingDistribution is lock-free and may be called from any thread, but not during endIteration(). accumulate()
+/// and endIteration() are called by one thread at a time; they spread their work over the caller's oneTBB task arena
+/// and give the same bits on any number of threads. Several fields may live side by side.
 class Field {
  public:
   struct State;  ///< private to the library
@@ -41,7 +41,8 @@ class Field {
   /// Invalidates every GuidingDistribution.
   void endIteration(double spp);
 
-  /// The density at a point, world space; "no guide" before the first iteration has ended and where nothing was learned.
+  /// The density at a point, world space; "no guide" before the first iteration has ended and where nothing was
+  /// learned.
   GuidingDistribution bind(const Imath::V3f& position) const noexcept;
 
   /// True once bind() can return a guide somewhere.
@@ -57,7 +58,7 @@ class Field {
 
  private:
   explicit Field(std::unique_ptr<State> state) noexcept;
-  friend class FieldFile;
+  friend class FieldFile;  // save() and load()
   std::unique_ptr<State> m_state;
 };
 

@@ -8,20 +8,22 @@ namespace guiding {
 
 /// What the compensation solver found.
 struct CompensationResult {
-  double lambda = 0;       ///< multiplier: p = max(alpha b, t/lambda), with t scaled to sum to 1; 0 if there is no target
+  double lambda = 0;  ///< multiplier: p = max(alpha b, t/lambda), with t scaled to sum to 1; 0 if there is no target
   double removedMass = 0;  ///< share of the target's mass in cells that end up empty, in [0, 1]
   bool empty = false;      ///< nothing is left for the guide to sample: use the BSDF alone
 };
 
 /// Sharpens a learned target against the technique it is mixed with.
 ///
-/// Given cells with target mass t_j >= 0 and mass b_j >= 0 (summing to at most 1) of the other technique, which is assumed to be
-/// sampled with probability alpha in [0, 1), writes to q_j the masses of the free technique's density; they sum to 1.
+/// Given cells with target mass t_j >= 0 and mass b_j >= 0 (summing to at most 1) of the other technique, which is
+/// assumed to be sampled with probability alpha in [0, 1), writes to q_j the masses of the free technique's density;
+/// they sum to 1.
 ///
-/// WaterFilling minimises sum_j t_j^2 / p_j over p = alpha b + (1 - alpha) q exactly: p = max(alpha b, t/lambda). Never assume a
-/// larger alpha than is sampled. ClipRenormalise is the published form q ~ max(0, t/T - alpha b) [Karlík et al. 2019]. None
-/// gives q = t/T. Only ratios of t matter, over the whole range of the type. Empty (q all zero) if t has no positive finite total,
-/// a mass is negative or not finite, or alpha is out of range. q may alias t, not b. Allocates nothing.
+/// WaterFilling minimises sum_j t_j^2 / p_j over p = alpha b + (1 - alpha) q exactly: p = max(alpha b, t/lambda). Never
+/// assume a larger alpha than is sampled. ClipRenormalise is the published form q ~ max(0, t/T - alpha b) [Karlík et
+/// al. 2019]. None gives q = t/T. Only ratios of t matter, over the whole range of the type. Empty (q all zero) if t
+/// has no positive finite total, a mass is negative or not finite, or alpha is out of range. q may alias t, not b.
+/// Allocates nothing.
 CompensationResult compensate(std::span<const float> t, std::span<const float> b, float alpha, CompensationForm form,
                               std::span<float> q) noexcept;
 CompensationResult compensate(std::span<const double> t, std::span<const double> b, double alpha, CompensationForm form,

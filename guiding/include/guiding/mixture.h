@@ -19,8 +19,8 @@ struct BsdfEvaluation {
 template <class Color>
 struct BsdfDraw {
   Imath::V3f wi;
-  Color weight;          ///< BSDF * |cos| / pdf (for a delta lobe its throughput weight); black: the sample failed
-  float pdf = 0;         ///< per solid angle; for a delta lobe the probability of choosing it
+  Color weight;   ///< BSDF * |cos| / pdf (for a delta lobe its throughput weight); black: the sample failed
+  float pdf = 0;  ///< per solid angle; for a delta lobe the probability of choosing it
   bool isDelta = false;
 };
 
@@ -28,9 +28,9 @@ struct BsdfDraw {
 template <class Color>
 struct MixtureDraw {
   Imath::V3f wi;
-  Color weight;            ///< throughput weight: BSDF * |cos| / mixturePdf; black: the path ends
-  Color bsdfCos;           ///< BSDF * |cos|; unset for delta events
-  float pdf = 0;           ///< alpha * bsdfPdf + (1 - alpha) * guidePdf, per solid angle; for a delta event alpha * probability
+  Color weight;   ///< throughput weight: BSDF * |cos| / mixturePdf; black: the path ends
+  Color bsdfCos;  ///< BSDF * |cos|; unset for delta events
+  float pdf = 0;  ///< alpha * bsdfPdf + (1 - alpha) * guidePdf, per solid angle; for a delta event alpha * probability
   float bsdfPdf = 0;
   float guidePdf = 0;
   bool isDelta = false;

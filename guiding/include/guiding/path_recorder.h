@@ -23,16 +23,18 @@ class PathRecorder {
 
   /// One scattering event.
   struct Scatter {
-    Imath::V3f position;      ///< world space
-    Imath::V3f wi;            ///< sampled direction, unit
-    Imath::V3f weight;        ///< BSDF * |cos| / pdf, per channel (for a delta event its throughput weight)
-    Imath::V3f bsdfCos;       ///< BSDF * |cos| alone, per channel; unused for delta events
-    float pdf = 0;            ///< density of wi that was really used (the mixture), per solid angle
-    float bsdfPdf = 0;        ///< the BSDF sampler's own density of wi, per solid angle
-    float guidePdf = 0;       ///< the guide's density of wi, per solid angle; 0 without a guide
-    bool isDelta = false;     ///< delta events carry radiance on but are not learned from
+    Imath::V3f position;   ///< world space
+    Imath::V3f wi;         ///< sampled direction, unit
+    Imath::V3f weight;     ///< BSDF * |cos| / pdf, per channel (for a delta event its throughput weight)
+    Imath::V3f bsdfCos;    ///< BSDF * |cos| alone, per channel; unused for delta events
+    float pdf = 0;         ///< density of wi that was really used (the mixture), per solid angle
+    float bsdfPdf = 0;     ///< the BSDF sampler's own density of wi, per solid angle
+    float guidePdf = 0;    ///< the guide's density of wi, per solid angle; 0 without a guide
+    bool isDelta = false;  ///< delta events carry radiance on but are not learned from
   };
-  void scatter(const Scatter& event) { m_vertices.push_back({event, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 1.0f, kNoDistance}); }
+  void scatter(const Scatter& event) {
+    m_vertices.push_back({event, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 1.0f, kNoDistance});
+  }
 
   /// Light sampled at the vertex that the last scatter() reached (or, before any scatter, at the first vertex, which no
   /// sample learns from). `contribution` is BSDF * cos * Le * misWeight / pdf at that vertex, without the throughput.

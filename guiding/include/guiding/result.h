@@ -20,7 +20,8 @@ struct Error {
   std::string text;
 };
 
-/// Either a value or an Error. The library reports every failure of set-up, files and settings this way and never throws.
+/// Either a value or an Error. The library reports every failure of set-up, files and settings this way and never
+/// throws.
 template <class T>
 class [[nodiscard]] Result {
  public:

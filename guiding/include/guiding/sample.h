@@ -12,12 +12,13 @@ namespace guiding {
 struct RadianceSample {
   Imath::V3f position;   ///< where the path scattered, world space
   Imath::V3f direction;  ///< wi: unit vector of the sampled direction, pointing to where the radiance comes from
-  float radiance = 0;    ///< estimate of the incident radiance from `direction`, mean of the colour channels, >= 0; zero counts
-  float product = 0;     ///< estimate of radiance * BSDF * cos, mean of the colour channels, >= 0
-  float pdf = 0;         ///< density of `direction` (mixture of BSDF and guide), per solid angle, > 0
-  float bsdfPdf = 0;     ///< the BSDF sampler's own density of `direction`, per solid angle, >= 0
-  float guidePdf = 0;    ///< the guide's density of `direction`, per solid angle; 0 where no guide was mixed in
-  float distance = 0;    ///< to the next vertex along `direction`, scene units; infinity when the ray left the scene
+  float radiance =
+      0;  ///< estimate of the incident radiance from `direction`, mean of the colour channels, >= 0; zero counts
+  float product = 0;   ///< estimate of radiance * BSDF * cos, mean of the colour channels, >= 0
+  float pdf = 0;       ///< density of `direction` (mixture of BSDF and guide), per solid angle, > 0
+  float bsdfPdf = 0;   ///< the BSDF sampler's own density of `direction`, per solid angle, >= 0
+  float guidePdf = 0;  ///< the guide's density of `direction`, per solid angle; 0 where no guide was mixed in
+  float distance = 0;  ///< to the next vertex along `direction`, scene units; infinity when the ray left the scene
 };
 
 /// Samples of one tile in the order in which its paths were traced. Keeps its memory between uses.

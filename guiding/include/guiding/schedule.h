@@ -9,9 +9,10 @@ namespace guiding {
 
 /// How the pictures of the iterations become one.
 enum class SampleCombination {
-  Discard,          ///< one iteration's picture: the last one, or the one before where the last was cut short [Müller et al. 2017]
-  Automatic,        ///< as Discard, but training ends and the rest of the budget goes to the density at hand as soon as another
-                    ///< doubling would raise the extrapolated final variance [ibid., Sec. 4.3]
+  Discard,    ///< one iteration's picture: the last one, or the one before where the last was cut short [Müller et al.
+              ///< 2017]
+  Automatic,  ///< as Discard, but training ends and the rest of the budget goes to the density at hand as soon as
+              ///< another doubling would raise the extrapolated final variance [ibid., Sec. 4.3]
   InverseVariance,  ///< the last iterations weighted by the inverse of their mean pixel variance [Müller 2019]
 };
 
@@ -28,16 +29,19 @@ struct ScheduleSettings {
 /// What the schedule asks the renderer to do next.
 struct IterationPlan {
   int index = 0;
-  std::int64_t spp = 0;       ///< samples per pixel; 0: the budget is spent. The final one of a time budget runs until time is over.
-  bool isFinal = false;       ///< no iteration follows, so its samples need not be recorded
-  bool keepsDensity = false;  ///< goes on with the density of the iteration before: do not call Field::endIteration() first
+  std::int64_t spp =
+      0;  ///< samples per pixel; 0: the budget is spent. The final one of a time budget runs until time is over.
+  bool isFinal = false;  ///< no iteration follows, so its samples need not be recorded
+  bool keepsDensity =
+      false;  ///< goes on with the density of the iteration before: do not call Field::endIteration() first
 };
 
 /// What an iteration came to, as the renderer measured it.
 struct IterationOutcome {
   std::int64_t spp = 0;  ///< samples per pixel rendered
-  double variance = 0;   ///< mean over pixels of the unbiased variance of the iteration's pixel means, luminance; 0 if unknown
-  double seconds = 0;    ///< wall-clock, training included
+  double variance =
+      0;  ///< mean over pixels of the unbiased variance of the iteration's pixel means, luminance; 0 if unknown
+  double seconds = 0;  ///< wall-clock, training included
 };
 
 /// Doubling iterations under a budget in samples per pixel or in seconds.

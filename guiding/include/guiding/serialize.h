@@ -7,11 +7,12 @@
 
 namespace guiding {
 
-/// Writes the field (versioned, little-endian, checksummed) to a temporary name and renames it, so that an old file is never lost.
+/// Writes the field (versioned, little-endian, checksummed) to a temporary name and renames it, so that an old file is
+/// never lost.
 Status save(const Field& field, const std::filesystem::path& path);
 
-/// Reads a field that save() wrote. Foreign, truncated, corrupted or newer files give ErrorCode::Format; sizes are checked
-/// against the file's length before anything is allocated.
+/// Reads a field that save() wrote. Foreign, truncated, corrupted or newer files give ErrorCode::Format; sizes are
+/// checked against the file's length before anything is allocated.
 Result<Field> load(const std::filesystem::path& path);
 
 }  // namespace guiding

@@ -1,0 +1,259 @@
+#include "guiding/serialize.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <random>
+
+#include "byte_stream.h"
+#include "field_state.h"
+#include "validate.h"
+
+// File: 8 bytes magic, u32 version, u64 payload size, u64 checksum of the payload, payload. All little-endian.
+namespace guiding {
+
+namespace {
+
+constexpr char kMagic[8] = {'S', 'D', 'T', 'F', 'I', 'E', 'L', 'D'};
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kHeaderBytes = 8 + 4 + 8 + 8;
+
+void putSettings(ByteWriter& out, const FieldSettings& s) {
+  out.put(std::uint32_t(s.directionMap));
+  out.put(s.sTreeThreshold);
+  out.put(std::uint64_t(s.maxMemoryBytes));
+  out.put(s.dTreeThreshold);
+  out.put(std::int32_t(s.maxDTreeDepth));
+  out.put(s.bsdfSamplingFraction);
+  out.put(std::uint32_t(s.compensation.form));
+  out.put(s.compensation.strength);
+}
+
+bool getSettings(ByteReader& in, FieldSettings& s) {
+  const auto map = in.get<std::uint32_t>();
+  s.sTreeThreshold = in.get<double>();
+  s.maxMemoryBytes = std::size_t(in.get<std::uint64_t>());
+  s.dTreeThreshold = in.get<float>();
+  s.maxDTreeDepth = in.get<std::int32_t>();
+  s.bsdfSamplingFraction = in.get<float>();
+  const auto form = in.get<std::uint32_t>();
+  s.compensation.strength = in.get<float>();
+  if (map > std::uint32_t(DirectionMap::Octahedral) || form > std::uint32_t(CompensationForm::ClipRenormalise))
+    return false;
+  s.directionMap = DirectionMap(map);
+  s.compensation.form = CompensationForm(form);
+  return s.validate().ok();
+}
+
+void putLinks(ByteWriter& out, const QuadtreeLinks& links) {
+  out.put(links.first);
+  out.put(std::uint8_t(links.mask));
+}
+
+QuadtreeLinks getLinks(ByteReader& in) {
+  QuadtreeLinks links;
+  links.first = in.get<std::uint32_t>();
+  links.mask = in.get<std::uint8_t>();
+  return links;
+}
+
+void putLeaf(ByteWriter& out, const SpatialLeaf& leaf) {
+  out.put(leaf.sampleCount);
+  out.put(std::uint64_t(leaf.building.nodes().size()));
+  for (const auto& node : leaf.building.nodes()) {
+    for (const double sum : node.sum) out.put(sum);
+    putLinks(out, node.links);
+  }
+}
+
+constexpr std::size_t kLeafBytes = 16, kBuildingNodeBytes = 37;
+
+void getLeaf(ByteReader& in, SpatialLeaf& leaf) {
+  leaf.sampleCount = in.get<std::uint64_t>();
+  auto& nodes = leaf.building.nodes();
+  nodes.resize(in.getCount(kBuildingNodeBytes));
+  for (auto& node : nodes) {
+    for (double& sum : node.sum) sum = in.get<double>();
+    node.links = getLinks(in);
+  }
+}
+
+void putDensity(ByteWriter& out, const GuidingDensity& density) {
+  out.put(std::uint64_t(density.trees().size()));
+  for (const auto& tree : density.trees()) {
+    for (const float upTo : tree.upTo) out.put(upTo);
+    out.put(tree.bsdfSamplingFraction);
+    out.put(tree.emptyArea);
+    out.put(tree.firstNode);
+    out.put(tree.nodeCount);
+    out.put(tree.subdivided);
+  }
+  out.put(std::uint64_t(density.nodes().size()));
+  for (const auto& node : density.nodes()) {
+    out.put(node.column0);
+    out.put(node.row0[0]);
+    out.put(node.row0[1]);
+    putLinks(out, node.links);
+  }
+}
+
+constexpr std::size_t kTreeBytes = (GuidingDensity::kGridCells + 1) * 4 + 24, kNodeBytes = 17;
+
+void getDensity(ByteReader& in, GuidingDensity& density) {
+  std::vector<GuidingDensity::Tree> trees(in.getCount(kTreeBytes));
+  for (auto& tree : trees) {
+    for (float& upTo : tree.upTo) upTo = in.get<float>();
+    for (int x = 0; x < GuidingDensity::kGridSize; ++x) tree.columnUpTo[x] = tree.upTo[x * GuidingDensity::kGridSize];
+    tree.bsdfSamplingFraction = in.get<float>();
+    tree.emptyArea = in.get<float>();
+    tree.firstNode = in.get<std::uint32_t>();
+    tree.nodeCount = in.get<std::uint32_t>();
+    tree.subdivided = in.get<std::uint64_t>();
+  }
+  std::vector<GuidingDensity::Node> nodes(in.getCount(kNodeBytes));
+  for (auto& node : nodes) {
+    node.column0 = in.get<float>();
+    node.row0[0] = in.get<float>();
+    node.row0[1] = in.get<float>();
+    node.links = getLinks(in);
+  }
+  density.assign(std::move(trees), std::move(nodes));
+}
+
+std::vector<std::uint8_t> payloadOf(const Field::State& state) {
+  ByteWriter out;
+  putSettings(out, state.settings);
+  for (int axis = 0; axis < 3; ++axis) out.put(state.bounds.min[axis]);
+  for (int axis = 0; axis < 3; ++axis) out.put(state.bounds.max[axis]);
+  out.put(std::int32_t(state.iterations));
+  out.put(state.samples);
+  out.put(state.droppedSamples);
+  out.put(state.outsideSamples);
+  out.put(std::uint8_t(state.memoryCapReached));
+  out.put(std::uint64_t(state.tree.nodes().size()));
+  for (const std::uint32_t word : state.tree.nodes()) out.put(word);
+  out.put(std::uint64_t(state.leaves.size()));
+  for (std::size_t leaf = 0; leaf < state.leaves.size(); ++leaf) {
+    out.put(state.densityOfLeaf[leaf]);
+    putLeaf(out, state.leaves[leaf]);
+  }
+  putDensity(out, state.density);
+  return out.bytes();
+}
+
+/// Null unless the bytes are exactly one sound field.
+std::unique_ptr<Field::State> stateOf(std::span<const std::uint8_t> payload) {
+  ByteReader in(payload);
+  FieldSettings settings;
+  if (!getSettings(in, settings)) return nullptr;
+  Imath::Box3f bounds;
+  for (int axis = 0; axis < 3; ++axis) bounds.min[axis] = in.get<float>();
+  for (int axis = 0; axis < 3; ++axis) bounds.max[axis] = in.get<float>();
+  if (!areUsableBounds(bounds)) return nullptr;
+
+  auto state = std::make_unique<Field::State>(bounds, settings);
+  state->iterations = in.get<std::int32_t>();
+  state->samples = in.get<std::uint64_t>();
+  state->droppedSamples = in.get<std::uint64_t>();
+  state->outsideSamples = in.get<std::uint64_t>();
+  state->memoryCapReached = in.get<std::uint8_t>() != 0;
+
+  std::vector<std::uint32_t> words(in.getCount(sizeof(std::uint32_t)));
+  for (std::uint32_t& word : words) word = in.get<std::uint32_t>();
+  if (in.failed() || !state->tree.assignNodes(std::move(words))) return nullptr;
+
+  const std::size_t leaves = in.getCount(kLeafBytes);
+  state->leaves.resize(leaves);
+  state->densityOfLeaf.resize(leaves);
+  for (std::size_t leaf = 0; leaf < leaves && !in.failed(); ++leaf) {
+    state->densityOfLeaf[leaf] = in.get<std::uint32_t>();
+    getLeaf(in, state->leaves[leaf]);
+  }
+  getDensity(in, state->density);
+  if (in.failed() || in.remaining() != 0 || !validateState(*state)) return nullptr;
+  state->hasGuide = !state->density.trees().empty();
+  return state;
+}
+
+Error ioError(const std::filesystem::path& path, const char* what) {
+  return {ErrorCode::Io,
+          path.string() + ": " + what + (errno != 0 ? std::string(": ") + std::strerror(errno) : std::string())};
+}
+
+Error formatError(const std::filesystem::path& path, const char* what) {
+  return {ErrorCode::Format, path.string() + ": " + what};
+}
+
+bool writeAll(const std::filesystem::path& path, std::span<const std::uint8_t> payload) {
+  ByteWriter header;
+  for (const char c : kMagic) header.put(std::uint8_t(c));
+  header.put(kVersion);
+  header.put(std::uint64_t(payload.size()));
+  header.put(checksum(payload));
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(header.bytes().data()), std::streamsize(header.bytes().size()));
+  file.write(reinterpret_cast<const char*>(payload.data()), std::streamsize(payload.size()));
+  file.close();
+  return file.good();
+}
+
+}  // namespace
+
+/// The one friend of Field that turns it into bytes and back.
+class FieldFile {
+ public:
+  static const Field::State& stateOf(const Field& field) { return *field.m_state; }
+  static Field fieldOf(std::unique_ptr<Field::State> state) { return Field(std::move(state)); }
+};
+
+Status save(const Field& field, const std::filesystem::path& path) {
+  const std::vector<std::uint8_t> payload = payloadOf(FieldFile::stateOf(field));
+  std::filesystem::path temporary = path;
+  temporary += ".tmp" + std::to_string(std::random_device{}());
+  errno = 0;
+  std::error_code failed;
+  if (!writeAll(temporary, payload)) {
+    const Error error = ioError(path, "cannot be written");
+    std::filesystem::remove(temporary, failed);
+    return error;
+  }
+  std::filesystem::rename(temporary, path, failed);
+  if (failed) {
+    const Error error{ErrorCode::Io, path.string() + ": cannot be written: " + failed.message()};
+    std::filesystem::remove(temporary, failed);
+    return error;
+  }
+  return Success{};
+}
+
+Result<Field> load(const std::filesystem::path& path) {
+  errno = 0;
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(path, failed))
+    return Error{ErrorCode::Io, path.string() + ": there is no such file, or it is not a regular one"};
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) return ioError(path, "cannot be opened");
+  const std::streamoff size = file.tellg();
+  std::vector<std::uint8_t> bytes(size > 0 ? std::size_t(size) : 0);
+  file.seekg(0);
+  file.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()));
+  if (!file) return ioError(path, "cannot be read");
+
+  if (bytes.size() < kHeaderBytes || std::memcmp(bytes.data(), kMagic, sizeof(kMagic)) != 0)
+    return formatError(path, "is not a guiding field; train one and save it with this library");
+  ByteReader header(std::span(bytes).subspan(sizeof(kMagic), kHeaderBytes - sizeof(kMagic)));
+  if (header.get<std::uint32_t>() != kVersion)
+    return formatError(path, "was written by another version of the library; train the field again");
+  const auto payloadSize = header.get<std::uint64_t>();
+  const auto expected = header.get<std::uint64_t>();
+  const auto payload = std::span<const std::uint8_t>(bytes).subspan(kHeaderBytes);
+  if (payload.size() != payloadSize)
+    return formatError(path, "is truncated or has bytes after its end; train the field again");
+  if (checksum(payload) != expected) return formatError(path, "is damaged (wrong checksum); train the field again");
+  std::unique_ptr<Field::State> state = stateOf(payload);
+  if (!state) return formatError(path, "holds an inconsistent field; train the field again");
+  return FieldFile::fieldOf(std::move(state));
+}
+
+}  // namespace guiding
