@@ -242,7 +242,7 @@ Result<Field> load(const std::filesystem::path& path) {
 
   if (bytes.size() < kHeaderBytes || std::memcmp(bytes.data(), kMagic, sizeof(kMagic)) != 0)
     return formatError(path, "is not a guiding field; train one and save it with this library");
-  ByteReader header(std::span(bytes).subspan(sizeof(kMagic), kHeaderBytes - sizeof(kMagic)));
+  ByteReader header{std::span<const std::uint8_t>(bytes).subspan(sizeof(kMagic), kHeaderBytes - sizeof(kMagic))};
   if (header.get<std::uint32_t>() != kVersion)
     return formatError(path, "was written by another version of the library; train the field again");
   const auto payloadSize = header.get<std::uint64_t>();
