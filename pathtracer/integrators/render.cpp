@@ -54,9 +54,10 @@ class RenderRun {
 
   std::int64_t m_sppDone = 0;         ///< over all iterations
   std::int64_t m_sppOfIteration = 0;  ///< in the current one
-  double m_iterationStart = 0;        ///< seconds at which the current iteration began
-  double m_renderingEnd = 0;          ///< seconds at which the last pass of the iteration before ended
-  double m_passSeconds = 0;           ///< of the last pass
+  int m_passOfIteration = 0;
+  double m_iterationStart = 0;  ///< seconds at which the current iteration began
+  double m_renderingEnd = 0;    ///< seconds at which the last pass of the iteration before ended
+  double m_passSeconds = 0;     ///< of the last pass
   double m_trainSecondsReported = 0;
   std::uint64_t m_rejectedSamples = 0;
 };
@@ -119,10 +120,12 @@ void RenderRun::renderIteration(const guiding::IterationPlan& plan) {
 
   m_film.clear();
   m_sppOfIteration = 0;
+  m_passOfIteration = 0;
   do {
     const double passStart = m_clock.seconds();
     const std::int64_t count = std::min(sppOfPass, plan.spp - m_sppOfIteration);
     m_passes.render(loop, {m_sppDone, count}, targets);
+    ++m_passOfIteration;
     m_sppDone += count;
     m_sppOfIteration += count;
     m_passSeconds = m_clock.seconds() - passStart;
@@ -181,6 +184,7 @@ Image RenderRun::imageSoFar(const guiding::IterationPlan& plan) const {
 
 void RenderRun::callHooks(const guiding::IterationPlan& plan) const {
   const RenderProgress progress{.iteration = plan.index,
+                                .pass = m_passOfIteration,
                                 .isFinal = plan.isFinal,
                                 .sppDone = m_sppDone,
                                 .sppTotal = m_settings.spp,

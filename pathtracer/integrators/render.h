@@ -84,6 +84,7 @@ struct RenderResult {
 /// What an observer may look at after each pass.
 struct RenderProgress {
   int iteration = 0;
+  int pass = 0;  ///< of this iteration, from 1
   bool isFinal = false;
   std::int64_t sppDone = 0, sppTotal = 0;  ///< total 0 under a time budget
   double secondsDone = 0, secondsBudget = 0;

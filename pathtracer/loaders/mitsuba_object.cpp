@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/near_name.h"
 #include "loaders/loader_error.h"
 #include "loaders/mitsuba_values.h"
-#include "loaders/near_name.h"
 
 namespace pt::mitsuba {
 namespace {

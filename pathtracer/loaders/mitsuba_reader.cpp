@@ -6,7 +6,7 @@
 #include <cctype>
 #include <limits>
 
-#include "loaders/near_name.h"
+#include "core/near_name.h"
 
 namespace pt::mitsuba {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <functional>
 
+#include "core/near_name.h"
 #include "loaders/color.h"
 #include "loaders/loader_error.h"
-#include "loaders/near_name.h"
 #include "loaders/parse_number.h"
 
 namespace pt::mitsuba {

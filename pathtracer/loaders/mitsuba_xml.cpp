@@ -6,8 +6,8 @@
 #include <pugixml.hpp>
 #include <set>
 
+#include "core/near_name.h"
 #include "loaders/loader_error.h"
-#include "loaders/near_name.h"
 
 namespace pt::mitsuba {
 namespace {

@@ -1,4 +1,4 @@
-#include "loaders/near_name.h"
+#include "core/near_name.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,0 +1,24 @@
+#include "integrators/guiding_presets.h"
+
+#include <algorithm>
+#include <array>
+
+namespace pt {
+
+std::span<const GuidingPreset> guidingPresets() {
+  static const std::array<GuidingPreset, 2> kPresets{{
+      {"none", "plain path tracing", std::nullopt},
+      {"mueller2017", "the SD-tree as published in 2017",
+       GuidingSettings{guiding::FieldSettings::mueller2017(), guiding::ScheduleSettings::mueller2017()}},
+  }};
+  return kPresets;
+}
+
+const GuidingPreset* findGuidingPreset(std::string_view name) {
+  const auto presets = guidingPresets();
+  const auto found =
+      std::find_if(presets.begin(), presets.end(), [&](const GuidingPreset& p) { return p.name == name; });
+  return found == presets.end() ? nullptr : &*found;
+}
+
+}  // namespace pt

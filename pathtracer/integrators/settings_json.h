@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "integrators/render.h"
+
+namespace pt {
+
+/// Reads guiding settings: {"preset": "mueller2017", "field": {...}, "schedule": {...}}, each part optional; what is
+/// left out is as in the preset (mueller2017 by default). The keys are the members' names. Throws InputError with
+/// `source` and the JSON pointer for wrong types, unknown keys (naming the nearest known one) and values out of range.
+GuidingSettings guidingSettingsFromJson(const nlohmann::ordered_json& json, const std::string& source);
+
+/// The same from a file.
+GuidingSettings loadGuidingSettings(const std::filesystem::path& file);
+
+/// Everything, such that guidingSettingsFromJson() gives the same settings back.
+nlohmann::ordered_json toJson(const GuidingSettings& settings);
+nlohmann::ordered_json toJson(const guiding::FieldSettings& settings);
+
+}  // namespace pt
