@@ -23,6 +23,7 @@ int runMicro(int argc, char** argv) {
   registerLookups("plain", plain);
   registerLookups("compensated", compensated);
   registerTraining();
+  registerStorage("plain", plain);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

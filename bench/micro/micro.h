@@ -11,6 +11,9 @@ namespace bench {
 /// run.
 void registerLookups(const std::string& fieldName, const guiding::Field& field);
 
+/// Writing and reading its file.
+void registerStorage(const std::string& fieldName, const guiding::Field& field);
+
 /// Recording of paths, learning from records, freezing and refining.
 void registerTraining();
 

@@ -1,6 +1,7 @@
-// Creates, trains, binds and samples a field with nothing but the installed headers and library.
+// Creates, trains, binds, samples and saves a field with nothing but the installed headers and library.
 
 #include <guiding/field.h>
+#include <guiding/serialize.h>
 #include <guiding/version.h>
 
 #include <cmath>
@@ -68,6 +69,13 @@ int main() {
   if (!guide) return fail("nothing was learned");
   const double share = shareInCone(guide, rng);
   if (!(share > 0.8)) return fail("the guide does not follow the light");
+
+  if (const auto status = guiding::save(field.value(), "consumer.field"); !status)
+    return fail(status.error().text.c_str());
+  const auto loaded = guiding::load("consumer.field");
+  if (!loaded) return fail(loaded.error().text.c_str());
+  if (loaded.value().bind({0.5f, 0.5f, 0.5f}).pdf({0, 0, 1}) != guide.pdf({0, 0, 1}))
+    return fail("the loaded field differs");
 
   std::printf("guiding %s: %.1f%% of the guided directions meet the light\n", guiding::kVersionText, 100 * share);
   return 0;
