@@ -18,8 +18,9 @@ struct Image {
   const Spectrum& at(int x, int y) const { return pixels[std::size_t(y) * width + x]; }
 };
 
-/// Sums of one iteration's samples. Pixel filters are importance sampled, so each sample belongs to exactly one pixel: tiles share
-/// nothing, pixels stay independent and the sums need no lock. Every pixel is written by one thread at a time.
+/// Sums of one iteration's samples. Pixel filters are importance sampled, so each sample belongs to exactly one pixel:
+/// tiles share nothing, pixels stay independent and the sums need no lock. Every pixel is written by one thread at a
+/// time.
 class Film {
  public:
   Film(int width, int height);
@@ -27,7 +28,8 @@ class Film {
   int width() const noexcept { return m_width; }
   int height() const noexcept { return m_height; }
 
-  /// Adds one sample of pixel (x, y). A non-finite or negative sample counts as black and is reported by rejectedSamples().
+  /// Adds one sample of pixel (x, y). A non-finite or negative sample counts as black and is reported by
+  /// rejectedSamples().
   void add(int x, int y, const Spectrum& radiance) noexcept;
 
   void clear();
@@ -41,10 +43,12 @@ class Film {
  private:
   struct Pixel {
     double sum[3];
-    double luminance2;      ///< sum of squared luminances
+    double luminance2;  ///< sum of squared luminances
     std::uint32_t count;
     std::uint32_t rejected;
   };
+  static double variance(const Pixel& pixel) noexcept;
+
   int m_width, m_height;
   std::vector<Pixel> m_pixels;
 };

@@ -7,10 +7,10 @@ namespace pt {
 
 /// Light arriving at a point from a sampled direction; the host tests visibility.
 struct LightSample {
-  Vec3 wi;                ///< unit, towards the light
-  float distance = 0;     ///< to the sampled point; infinity for an environment
+  Vec3 wi;             ///< unit, towards the light
+  float distance = 0;  ///< how far the way must be free: to the sampled point, less its rounding error; may be infinite
   Spectrum radiance{0.0f};  ///< for a delta light the irradiance at normal incidence
-  float pdf = 0;          ///< per solid angle; 1 for a delta light; 0: no sample
+  float pdf = 0;            ///< per solid angle; 1 for a delta light; 0: no sample
 };
 
 class Light {
@@ -20,11 +20,12 @@ class Light {
   /// A point or directional light, which no ray can meet: its samples take no MIS weight.
   virtual bool isDelta() const noexcept = 0;
 
-  /// Rough total power, for choosing among lights; > 0 for a light that emits.
-  virtual float power() const noexcept = 0;
+  /// Total power (luminance), for choosing among lights; > 0 for a light that emits.
+  virtual double power() const noexcept = 0;
 
-  /// Samples a direction from p towards the light. u in [0,1)^2.
-  virtual LightSample sampleDirect(const Vec3& p, const Vec2& u) const noexcept = 0;
+  /// Samples a direction from p towards the light. uPart in [0,1) chooses a part of the light (a triangle), u in
+  /// [0,1)^2 the point. pdf 0: no sample.
+  virtual LightSample sampleDirect(const Vec3& p, double uPart, const Vec2& u) const noexcept = 0;
 
   /// Density, per solid angle from `p`, with which sampleDirect would find the point that a ray met on this light.
   virtual float pdfDirect(const Vec3& p, const SurfaceInteraction& hit) const noexcept = 0;

@@ -18,7 +18,7 @@ namespace pt {
 struct SceneFeatures {
   bool hasSampleableLights = false;  ///< something for light sampling to find
   bool hasEnvironment = false;
-  bool hasSmoothMaterials = false;   ///< something for guiding to learn
+  bool hasSmoothMaterials = false;  ///< something for guiding to learn
   bool hasTextures = false;
   bool hasInstances = false;
   std::vector<std::string> present;  ///< e.g. "area lights (5)"
@@ -35,10 +35,13 @@ struct DirectSample : LightSample {
   bool isDelta = false;  ///< pdf already includes the probability of choosing the light
 };
 
+struct SceneData;
+
 /// Built, immutable and thread-safe.
 class Scene {
  public:
-  /// Throws InputError for a description that cannot be built (no camera, non-finite vertex, empty mesh, light of no area, ...).
+  /// Throws InputError for a description that cannot be built (no camera, non-finite vertex, empty mesh, light of no
+  /// area, ...).
   explicit Scene(const SceneDescription& description);
   ~Scene();
 
@@ -62,18 +65,16 @@ class Scene {
   float pdfEnvironment(const Vec3& wi) const noexcept;
 
   /// Null without an environment.
-  const EnvironmentLight* environment() const noexcept { return m_environment; }
+  const EnvironmentLight* environment() const noexcept;
   const Camera& camera() const noexcept { return *m_camera; }
-  const Box3& bounds() const noexcept { return m_bounds; }
+  /// Of all shapes; never empty.
+  const Box3& bounds() const noexcept;
   const SceneFeatures& features() const noexcept { return m_features; }
   const SceneCounts& counts() const noexcept { return m_counts; }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> m_impl;
   std::unique_ptr<Camera> m_camera;
-  const EnvironmentLight* m_environment = nullptr;
-  Box3 m_bounds;
+  std::unique_ptr<const SceneData> m_data;
   SceneFeatures m_features;
   SceneCounts m_counts;
 };

@@ -93,14 +93,15 @@ struct TwoSidedMaterial {
 
 struct MaterialDescription {
   std::string name;
-  std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial, PlasticMaterial, TwoSidedMaterial>
+  std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial, PlasticMaterial,
+               TwoSidedMaterial>
       kind;
   SourceLocation source;
 };
 
 // ---------------------------------------------------------------- shapes
 
-/// Triangles with optional per-vertex normals and texture coordinates (empty when absent).
+/// Triangles with optional per-vertex normals and texture coordinates (empty when absent, else one per position).
 struct TriangleMesh {
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;
@@ -130,9 +131,9 @@ struct InstanceShape {
 struct ShapeDescription {
   std::string name;
   std::variant<MeshShape, SphereShape, RectangleShape, DiskShape, CubeShape, InstanceShape> kind;
-  Matrix4 toWorld;                     ///< row vectors: world = object * toWorld
+  Matrix4 toWorld;  ///< row vectors: world = object * toWorld
   bool flipNormals = false;
-  int material = kNone;                ///< none: reflects nothing
+  int material = kNone;                       ///< none: reflects nothing
   std::optional<SpectrumParameter> emission;  ///< radiance; one-sided, on the side of the shading normal
   SourceLocation source;
 };
@@ -172,6 +173,9 @@ struct PerspectiveCamera {
 
 enum class ReconstructionFilter { Box, Tent, Gaussian };
 
+/// Largest width or height of a film, in pixels.
+inline constexpr int kMaxFilmSize = 65536;
+
 struct FilmDescription {
   int width = 768, height = 576;
   ReconstructionFilter filter = ReconstructionFilter::Box;
@@ -187,7 +191,7 @@ struct IntegratorDescription {
 };
 
 struct SceneDescription {
-  std::string name;                 ///< shown to people
+  std::string name;  ///< shown to people
   std::filesystem::path file;
   std::optional<PerspectiveCamera> camera;
   FilmDescription film;

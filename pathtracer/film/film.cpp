@@ -1,0 +1,70 @@
+#include "film/film.h"
+
+#include <numeric>
+
+namespace pt {
+namespace {
+
+/// As pt::luminance, in double: both the mean and the mean square see the same value.
+double luminance(double r, double g, double b) {
+  return 0.212671 * r + 0.715160 * g + 0.072169 * b;
+}
+
+}  // namespace
+
+Film::Film(int width, int height) : m_width(width), m_height(height), m_pixels(std::size_t(width) * height, Pixel{}) {}
+
+void Film::add(int x, int y, const Spectrum& radiance) noexcept {
+  Pixel& pixel = m_pixels[std::size_t(y) * m_width + x];
+  ++pixel.count;
+  if (!isFinite(radiance) || radiance.x < 0 || radiance.y < 0 || radiance.z < 0) {
+    ++pixel.rejected;
+    return;
+  }
+  pixel.sum[0] += radiance.x;
+  pixel.sum[1] += radiance.y;
+  pixel.sum[2] += radiance.z;
+  const double value = luminance(radiance.x, radiance.y, radiance.z);
+  pixel.luminance2 += value * value;
+}
+
+void Film::clear() {
+  std::fill(m_pixels.begin(), m_pixels.end(), Pixel{});
+}
+
+Image Film::mean() const {
+  Image image(m_width, m_height);
+  for (std::size_t i = 0; i < m_pixels.size(); ++i) {
+    const Pixel& p = m_pixels[i];
+    if (p.count == 0) continue;
+    const double scale = 1.0 / p.count;
+    image.pixels[i] = Spectrum(float(p.sum[0] * scale), float(p.sum[1] * scale), float(p.sum[2] * scale));
+  }
+  return image;
+}
+
+double Film::variance(const Pixel& p) noexcept {
+  if (p.count < 2) return 0;
+  const double n = p.count;
+  const double mean = luminance(p.sum[0], p.sum[1], p.sum[2]) / n;
+  return std::max(0.0, p.luminance2 / n - mean * mean) / (n - 1);
+}
+
+double Film::meanVariance() const {
+  double sum = 0;
+  for (const Pixel& p : m_pixels) sum += variance(p);
+  return m_pixels.empty() ? 0 : sum / double(m_pixels.size());
+}
+
+std::vector<float> Film::pixelVariance() const {
+  std::vector<float> result(m_pixels.size());
+  std::transform(m_pixels.begin(), m_pixels.end(), result.begin(), [](const Pixel& p) { return float(variance(p)); });
+  return result;
+}
+
+std::uint64_t Film::rejectedSamples() const noexcept {
+  return std::accumulate(m_pixels.begin(), m_pixels.end(), std::uint64_t(0),
+                         [](std::uint64_t sum, const Pixel& p) { return sum + p.rejected; });
+}
+
+}  // namespace pt

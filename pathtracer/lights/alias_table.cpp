@@ -1,0 +1,43 @@
+#include "lights/alias_table.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace pt {
+
+AliasTable::AliasTable(std::span<const double> weights) : m_bins(weights.size()) {
+  const double largest = *std::max_element(weights.begin(), weights.end());  // sums of large weights must not overflow
+  double sum = 0;
+  for (double w : weights) sum += w / largest;
+
+  std::vector<double> share(weights.size());
+  std::vector<std::uint32_t> small, large;
+  for (std::uint32_t i = 0; i < weights.size(); ++i) {
+    share[i] = weights[i] / largest / sum * double(weights.size());
+    (share[i] < 1 ? small : large).push_back(i);
+  }
+  while (!small.empty() && !large.empty()) {
+    const std::uint32_t s = small.back(), l = large.back();
+    small.pop_back();
+    m_bins[s] = {float(share[s]), l};
+    share[l] -= 1 - share[s];
+    if (share[l] < 1) {
+      large.pop_back();
+      small.push_back(l);
+    }
+  }
+  for (std::uint32_t i : large) m_bins[i] = {1, i};
+  for (std::uint32_t i : small) m_bins[i] = {1, i};  // 1 but for rounding
+}
+
+AliasTable::Pick AliasTable::sample(double u) const noexcept {
+  const double scaled = u * double(m_bins.size());
+  const auto i = std::min(std::uint32_t(scaled), std::uint32_t(m_bins.size() - 1));
+  const double within = scaled - i;
+  const Bin bin = m_bins[i];
+  constexpr double kBelowOne = 0x1.fffffffffffffp-1;
+  if (within < bin.threshold) return {i, std::min(within / bin.threshold, kBelowOne)};
+  return {bin.alias, std::min((within - bin.threshold) / (1 - double(bin.threshold)), kBelowOne)};
+}
+
+}  // namespace pt

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "core/ray_offset.h"
+#include "lights/light.h"
+
+namespace pt {
+
+/// A point chosen on an emitting surface.
+struct AreaSample {
+  Vec3 p;
+  Vec3 ng;                   ///< unit, on either side
+  float extent = 0;          ///< size of the numbers it was computed from: they bound its rounding error
+  bool facesTarget = false;  ///< the emitting side is turned to the point that asks
+};
+
+/// Direction, density per solid angle and free distance from `p`, for a point chosen with density `pdfArea`.
+inline LightSample toLightSample(const Vec3& p, const AreaSample& sample, float pdfArea,
+                                 const Spectrum& radiance) noexcept {
+  const Vec3 d = sample.p - p;
+  const float distance = d.length();
+  LightSample result;
+  if (!sample.facesTarget || !(distance > 0)) return result;
+  result.wi = d / distance;
+  const float cosine = std::abs(sample.ng.dot(result.wi));
+  const float pdf = pdfArea * distance * distance / cosine;
+  if (!(pdf > 0) || !std::isfinite(pdf)) return result;
+  // The ray must end short of the light itself: errors of the point, of the direction and of the intersection, seen at
+  // a slant.
+  const float error = 8 * kHalfUlp * (distance + sample.extent) / cosine;
+  result.distance = std::max(0.0f, distance - error);
+  result.radiance = radiance;
+  result.pdf = pdf;
+  return result;
+}
+
+/// Density per solid angle from `p` of a point chosen with density `pdfArea`.
+inline float areaToSolidAngle(const Vec3& p, const SurfaceInteraction& hit, float pdfArea) noexcept {
+  const float pdf = pdfArea * (hit.p - p).length2() / std::abs(hit.ng.dot(hit.wo));
+  return std::isfinite(pdf) ? pdf : 0;
+}
+
+/// Emission to the side of the shading normal.
+inline Spectrum oneSided(const SurfaceInteraction& hit, const Vec3& wo, const Spectrum& radiance) noexcept {
+  return hit.frame.n.dot(wo) > 0 ? radiance : Spectrum(0.0f);
+}
+
+}  // namespace pt

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <limits>
+
+#include "core/warp.h"
+#include "lights/light.h"
+
+namespace pt {
+
+/// The same radiance from every direction.
+class ConstantLight : public EnvironmentLight {
+ public:
+  /// `sceneRadius`: of a sphere around everything, for the power that reaches it.
+  ConstantLight(const Spectrum& radiance, double sceneRadius) : m_radiance(radiance), m_sceneRadius(sceneRadius) {}
+
+  /// Through the scene's disc from every direction: pi r^2 * 4 pi L.
+  double power() const noexcept override {
+    return 4 * double(kPi) * double(kPi) * m_sceneRadius * m_sceneRadius * luminance(m_radiance);
+  }
+  LightSample sampleDirect(const Vec3&, double, const Vec2& u) const noexcept override {
+    return {squareToUniformSphere(u), std::numeric_limits<float>::infinity(), m_radiance, kUniformSpherePdf};
+  }
+  Spectrum radianceFrom(const Vec3&) const noexcept override { return m_radiance; }
+  float pdfFrom(const Vec3&) const noexcept override { return kUniformSpherePdf; }
+
+ private:
+  Spectrum m_radiance;
+  double m_sceneRadius;
+};
+
+}  // namespace pt

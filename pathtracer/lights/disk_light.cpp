@@ -1,0 +1,35 @@
+#include "lights/disk_light.h"
+
+#include "core/warp.h"
+#include "lights/area_sample.h"
+
+namespace pt {
+
+DiskLight::DiskLight(const Disk& disk, const Spectrum& radiance)
+    : m_disk(disk),
+      m_radiance(radiance),
+      m_extent(maxAbs(Vec3(disk.center)) + float(disk.axes[0].length() + disk.axes[1].length())) {}
+
+double DiskLight::power() const noexcept {
+  return double(kPi) * m_disk.area() * luminance(m_radiance);
+}
+
+LightSample DiskLight::sampleDirect(const Vec3& p, double, const Vec2& u) const noexcept {
+  const Vec2 xy = squareToDisk(u);
+  AreaSample sample;
+  sample.p = Vec3(m_disk.center + m_disk.axes[0] * double(xy.x) + m_disk.axes[1] * double(xy.y));
+  sample.ng = Vec3(m_disk.normal);
+  sample.extent = m_extent;
+  sample.facesTarget = m_disk.normal.dot(Imath::V3d(p) - m_disk.center) > 0;
+  return toLightSample(p, sample, float(1 / m_disk.area()), m_radiance);
+}
+
+float DiskLight::pdfDirect(const Vec3& p, const SurfaceInteraction& hit) const noexcept {
+  return areaToSolidAngle(p, hit, float(1 / m_disk.area()));
+}
+
+Spectrum DiskLight::radiance(const SurfaceInteraction& hit, const Vec3& wo) const noexcept {
+  return oneSided(hit, wo, m_radiance);
+}
+
+}  // namespace pt

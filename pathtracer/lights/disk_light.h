@@ -1,0 +1,26 @@
+#pragma once
+
+#include "lights/light.h"
+#include "scene/quadrics.h"
+
+namespace pt {
+
+/// A disk or ellipse that emits the same radiance from every point of its front. Points are chosen uniformly by area.
+class DiskLight : public Light {
+ public:
+  /// The disk outlives the light.
+  DiskLight(const Disk& disk, const Spectrum& radiance);
+
+  bool isDelta() const noexcept override { return false; }
+  double power() const noexcept override;
+  LightSample sampleDirect(const Vec3& p, double uPart, const Vec2& u) const noexcept override;
+  float pdfDirect(const Vec3& p, const SurfaceInteraction& hit) const noexcept override;
+  Spectrum radiance(const SurfaceInteraction& hit, const Vec3& wo) const noexcept override;
+
+ private:
+  const Disk& m_disk;
+  Spectrum m_radiance;
+  float m_extent;
+};
+
+}  // namespace pt

@@ -1,0 +1,52 @@
+#include "lights/mesh_light.h"
+
+#include "core/warp.h"
+#include "lights/area_sample.h"
+
+namespace pt {
+
+MeshLight::MeshLight(const Mesh& mesh, const Spectrum& radiance) : m_mesh(mesh), m_radiance(radiance) {
+  std::vector<double> areas;
+  areas.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Imath::V3d v0(mesh.position(a));
+    areas.push_back((Imath::V3d(mesh.position(b)) - v0).cross(Imath::V3d(mesh.position(c)) - v0).length() / 2);
+    m_area += areas.back();
+  }
+  m_triangles = AliasTable(areas);
+  m_invArea = float(1 / m_area);
+}
+
+double MeshLight::power() const noexcept {
+  return double(kPi) * m_area * luminance(m_radiance);
+}
+
+LightSample MeshLight::sampleDirect(const Vec3& p, double uPart, const Vec2& u) const noexcept {
+  const auto pick = m_triangles.sample(uPart);
+  const auto& [a, b, c] = m_mesh.triangles[pick.index];
+  const Vec2 uv = squareToTriangle(u);
+  const Vec3& v0 = m_mesh.position(a);
+  const Vec3 e1 = m_mesh.position(b) - v0, e2 = m_mesh.position(c) - v0;
+
+  AreaSample sample;
+  sample.p = v0 + e1 * uv.x + e2 * uv.y;
+  sample.ng = e1.cross(e2).normalized();
+  sample.extent = maxAbs(v0) + m_mesh.maxEdge;
+  if (m_mesh.hasNormals()) {
+    const Vec3 ns = m_mesh.normal(a) * (1 - uv.x - uv.y) + m_mesh.normal(b) * uv.x + m_mesh.normal(c) * uv.y;
+    sample.facesTarget = ns.dot(p - sample.p) > 0;
+  } else {
+    sample.facesTarget = sample.ng.dot(p - sample.p) > 0;
+  }
+  return toLightSample(p, sample, m_invArea, m_radiance);
+}
+
+float MeshLight::pdfDirect(const Vec3& p, const SurfaceInteraction& hit) const noexcept {
+  return areaToSolidAngle(p, hit, m_invArea);
+}
+
+Spectrum MeshLight::radiance(const SurfaceInteraction& hit, const Vec3& wo) const noexcept {
+  return oneSided(hit, wo, m_radiance);
+}
+
+}  // namespace pt

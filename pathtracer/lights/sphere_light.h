@@ -1,0 +1,30 @@
+#pragma once
+
+#include "lights/light.h"
+#include "scene/quadrics.h"
+
+namespace pt {
+
+/// A sphere that emits the same radiance from every point, outwards, or inwards where its normals are flipped.
+/// Directions are uniform in the cone that it fills; from inside, uniform over the sphere of directions [Pharr et al.
+/// 2016, Sec. 14.2.2].
+class SphereLight : public Light {
+ public:
+  /// The sphere outlives the light.
+  SphereLight(const Sphere& sphere, const Spectrum& radiance) : m_sphere(sphere), m_radiance(radiance) {}
+
+  bool isDelta() const noexcept override { return false; }
+  double power() const noexcept override;
+  LightSample sampleDirect(const Vec3& p, double uPart, const Vec2& u) const noexcept override;
+  float pdfDirect(const Vec3& p, const SurfaceInteraction& hit) const noexcept override;
+  Spectrum radiance(const SurfaceInteraction& hit, const Vec3& wo) const noexcept override;
+
+ private:
+  LightSample sampleCone(const Imath::V3d& toCenter, const Vec2& u) const noexcept;
+  LightSample sampleInside(const Imath::V3d& toCenter, const Vec2& u) const noexcept;
+
+  const Sphere& m_sphere;
+  Spectrum m_radiance;
+};
+
+}  // namespace pt

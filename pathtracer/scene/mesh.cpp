@@ -1,0 +1,117 @@
+#include "scene/mesh.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "scene/transform.h"
+
+namespace pt {
+namespace {
+
+void validate(const TriangleMesh& mesh, const std::string& where) {
+  if (mesh.positions.empty() || mesh.triangles.empty())
+    throw InputError(where + ": the mesh is empty; leave the shape out or give it triangles");
+  if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
+    throw InputError(
+        fmt::format("{}: the mesh has {} vertices but {} normals", where, mesh.positions.size(), mesh.normals.size()));
+  if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())
+    throw InputError(fmt::format("{}: the mesh has {} vertices but {} texture coordinates", where,
+                                 mesh.positions.size(), mesh.uvs.size()));
+}
+
+void setVector(float* target, const Imath::V3d& v) {
+  target[0] = float(v.x);
+  target[1] = float(v.y);
+  target[2] = float(v.z);
+}
+
+void bakeVertices(const TriangleMesh& source, const Transform& toWorld, const BakeOptions& options,
+                  const std::string& where, Mesh& mesh) {
+  const bool normals = options.keepNormals && !source.normals.empty();
+  mesh.stride = normals ? 6 : 3;
+  // Embree reads 16 bytes of every vertex: one float of padding follows the last.
+  mesh.vertices.reserve(source.positions.size() * mesh.stride + 1);
+  mesh.vertices.resize(source.positions.size() * mesh.stride);
+  for (std::size_t i = 0; i < source.positions.size(); ++i) {
+    float* vertex = &mesh.vertices[i * mesh.stride];
+    setVector(vertex, toWorld.point(Imath::V3d(source.positions[i])));
+    if (!std::isfinite(vertex[0]) || !std::isfinite(vertex[1]) || !std::isfinite(vertex[2]))
+      throw InputError(fmt::format("{}: vertex {} is not finite", where, i));
+    if (!normals) continue;
+    const Imath::V3d n = toWorld.normal(Imath::V3d(source.normals[i])).normalized();
+    setVector(vertex + 3, options.flipNormals ? -n : n);  // a zero or non-finite normal is met when it is interpolated
+  }
+}
+
+bool hasArea(const Mesh& mesh, const Mesh::Triangle& t) {
+  const Imath::V3d a(mesh.position(t[0])), b(mesh.position(t[1])), c(mesh.position(t[2]));
+  return (b - a).cross(c - a).length2() > 0;
+}
+
+void bakeTriangles(const TriangleMesh& source, bool reverse, const std::string& where, Mesh& mesh) {
+  mesh.triangles.reserve(source.triangles.size());
+  double maxEdge2 = 0;
+  for (std::size_t i = 0; i < source.triangles.size(); ++i) {
+    Mesh::Triangle t = source.triangles[i];
+    for (std::uint32_t vertex : t)
+      if (vertex >= source.positions.size())
+        throw InputError(
+            fmt::format("{}: triangle {} names vertex {} of {}", where, i, vertex, source.positions.size()));
+    if (reverse) std::swap(t[0], t[1]);
+    if (!hasArea(mesh, t)) continue;
+    mesh.triangles.push_back(t);
+    for (int k = 0; k < 3; ++k)
+      maxEdge2 =
+          std::max(maxEdge2, (Imath::V3d(mesh.position(t[k])) - Imath::V3d(mesh.position(t[(k + 1) % 3]))).length2());
+  }
+  mesh.maxEdge = float(std::sqrt(maxEdge2) * 1.000001);
+}
+
+}  // namespace
+
+std::size_t Mesh::memoryBytes() const noexcept {
+  return vertices.capacity() * sizeof(float) + triangles.capacity() * sizeof(Triangle) + uvs.capacity() * sizeof(Vec2);
+}
+
+Mesh bakeMesh(const TriangleMesh& source, const Matrix4& toWorld, const BakeOptions& options, const std::string& where,
+              std::size_t& degenerate) {
+  validate(source, where);
+  const Transform transform(toWorld, where, !options.planar);
+  Mesh mesh;
+  bakeVertices(source, transform, options, where, mesh);
+  const bool mirrored = options.windingFollowsMirror && transform.mirrors();
+  bakeTriangles(source, !mesh.hasNormals() && options.flipNormals != mirrored, where, mesh);
+  if (mesh.triangles.empty()) throw InputError(where + ": no triangle of the mesh has any area");
+  if (options.keepUvs) mesh.uvs = source.uvs;
+  degenerate += source.triangles.size() - mesh.triangles.size();
+  return mesh;
+}
+
+TriangleMesh makeRectangle() {
+  TriangleMesh mesh;
+  mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  mesh.triangles = {{0, 1, 2}, {2, 3, 0}};
+  return mesh;
+}
+
+TriangleMesh makeCube() {
+  TriangleMesh mesh;
+  for (int axis = 0; axis < 3; ++axis)
+    for (float side : {-1.0f, 1.0f}) {
+      const auto first = std::uint32_t(mesh.positions.size());
+      for (const Vec2& c : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
+        Vec3 p;
+        p[axis] = side;
+        p[(axis + 1) % 3] = c.x * side;  // keeps the winding outward on both sides
+        p[(axis + 2) % 3] = c.y;
+        mesh.positions.push_back(p);
+        mesh.uvs.push_back((c + Vec2(1, 1)) * 0.5f);
+      }
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      mesh.triangles.push_back({first + 2, first + 3, first});
+    }
+  return mesh;
+}
+
+}  // namespace pt

@@ -1,0 +1,56 @@
+#include "scene/quadrics.h"
+
+namespace pt {
+namespace {
+
+Box3 boundsAround(const Imath::V3d& center, const Imath::V3d& extent) {
+  Box3 box;
+  for (int k = 0; k < 3; ++k) {  // one step outwards covers the rounding to float
+    box.min[k] = std::nextafter(float(center[k] - extent[k]), -std::numeric_limits<float>::infinity());
+    box.max[k] = std::nextafter(float(center[k] + extent[k]), std::numeric_limits<float>::infinity());
+  }
+  return box;
+}
+
+}  // namespace
+
+Box3 Sphere::bounds() const {
+  return boundsAround(center, Imath::V3d(radius));
+}
+
+bool Sphere::intersect(const RayD& ray, double tMin, double tMax, double& t) const noexcept {
+  const Imath::V3d o = ray.origin - center;
+  const double a = ray.direction.dot(ray.direction);
+  const double b = o.dot(ray.direction);
+  // Distance of the line from the centre instead of b^2 - a c: no cancellation for far origins [Haines et al. 2019,
+  // Sec. 7.2].
+  const double discriminant = radius * radius - (o - ray.direction * (b / a)).length2();
+  if (!(discriminant >= 0)) return false;
+  const double c = o.dot(o) - radius * radius;
+  const double q = -b - std::copysign(std::sqrt(a * discriminant), b);
+  if (q == 0) return false;  // starts on the sphere along its tangent
+  double near = q / a, far = c / q;
+  if (near > far) std::swap(near, far);
+  t = near > tMin ? near : far;
+  return t > tMin && t < tMax;
+}
+
+Box3 Disk::bounds() const {
+  Imath::V3d extent;
+  for (int k = 0; k < 3; ++k) extent[k] = std::hypot(axes[0][k], axes[1][k]);
+  return boundsAround(center, extent);
+}
+
+Imath::V2d Disk::coordinates(const Imath::V3d& p) const noexcept {
+  const Imath::V3d d = p - center, n = axes[0].cross(axes[1]);
+  const double scale = 1 / n.length2();
+  return {d.cross(axes[1]).dot(n) * scale, axes[0].cross(d).dot(n) * scale};
+}
+
+bool Disk::intersect(const RayD& ray, double tMin, double tMax, double& t) const noexcept {
+  t = (center - ray.origin).dot(normal) / ray.direction.dot(normal);
+  if (!(t > tMin && t < tMax)) return false;
+  return coordinates(ray.origin + ray.direction * t).length2() <= 1;
+}
+
+}  // namespace pt

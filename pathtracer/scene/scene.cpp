@@ -1,0 +1,90 @@
+#include "scene/scene.h"
+
+#include <bit>
+
+#include "cameras/perspective.h"
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/ray_offset.h"
+#include "scene/scene_data.h"
+
+namespace pt {
+namespace {
+
+std::unique_ptr<Camera> makeCamera(const SceneDescription& description) {
+  if (!description.camera) {
+    const std::string file = description.file.empty() ? std::string("scene") : description.file.string();
+    throw InputError(file + ": the scene has no camera; add one");
+  }
+  return std::make_unique<Perspective>(*description.camera, description.film);
+}
+
+/// u with 24 more bits below a float's: choices of probability far below 2^-24 keep it.
+double refine(float u, const Vec2& independent) noexcept {
+  const std::uint64_t bits =
+      combineHash(std::bit_cast<std::uint32_t>(independent.x), std::bit_cast<std::uint32_t>(independent.y));
+  return std::min(double(u) + double(bits >> 40) * 0x1p-48, 1 - 0x1p-48);
+}
+
+}  // namespace
+
+Scene::Scene(const SceneDescription& description)
+    : m_camera(makeCamera(description)),
+      m_data(std::make_unique<SceneData>(buildSceneData(description))),
+      m_features(listFeatures(*m_data)),
+      m_counts(countScene(*m_data)) {}
+
+Scene::~Scene() = default;
+
+bool Scene::intersect(const Ray& ray, SurfaceInteraction& si) const noexcept {
+  AccelHit hit;
+  if (!m_data->accel->intersect(ray, hit)) return false;
+  const bool instanced = hit.instance != kNoInstance;
+  const Instance* instance = instanced ? &m_data->instances[hit.instance] : nullptr;
+  const Surface& surface = instanced ? m_data->groups[instance->group][hit.shape] : m_data->surfaces[hit.shape];
+  completeInteraction(surface, instance, ray, hit, si);
+  si.material = surface.material;
+  si.light = surface.light;
+  return true;
+}
+
+bool Scene::occluded(const Ray& ray) const noexcept {
+  return m_data->accel->occluded(ray);
+}
+
+Ray Scene::spawnRay(const SurfaceInteraction& si, const Vec3& direction) const noexcept {
+  const float offset = si.ng.dot(direction) < 0 ? -si.offset : si.offset;
+  return {si.p + si.ng * offset, direction};
+}
+
+bool Scene::visible(const SurfaceInteraction& si, const LightSample& light) const noexcept {
+  Ray ray = spawnRay(si, light.wi);
+  ray.tMax = light.distance;
+  return !occluded(ray);
+}
+
+DirectSample Scene::sampleDirect(const Vec3& p, float uLight, const Vec2& u) const noexcept {
+  if (m_data->selection.empty()) return {};
+  const LightSelection::Choice choice = m_data->selection.sample(refine(uLight, u));
+  DirectSample sample{choice.light->sampleDirect(p, choice.remainder, u), choice.light->isDelta()};
+  sample.pdf *= choice.pmf;
+  return sample;
+}
+
+float Scene::pdfDirect(const Vec3& p, const SurfaceInteraction& hit) const noexcept {
+  return hit.light ? m_data->surfaces[hit.shape].lightPmf * hit.light->pdfDirect(p, hit) : 0;
+}
+
+float Scene::pdfEnvironment(const Vec3& wi) const noexcept {
+  return m_data->environment ? m_data->environmentPmf * m_data->environment->pdfFrom(wi) : 0;
+}
+
+const EnvironmentLight* Scene::environment() const noexcept {
+  return m_data->environment;
+}
+
+const Box3& Scene::bounds() const noexcept {
+  return m_data->bounds;
+}
+
+}  // namespace pt

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "lights/light_selection.h"
+#include "scene/embree_accel.h"
+#include "scene/scene.h"
+#include "scene/surface.h"
+
+namespace pt {
+
+/// What a Scene consists of. Addresses of meshes, quadrics, materials and lights are held by others and stay.
+struct SceneData {
+  std::vector<std::unique_ptr<Material>> materials;
+  std::deque<Mesh> meshes;
+  std::deque<Sphere> spheres;
+  std::deque<Disk> disks;
+
+  std::vector<Surface> surfaces;             ///< of the world
+  std::vector<std::vector<Surface>> groups;  ///< those that are instanced
+  std::vector<Instance> instances;
+  std::unique_ptr<EmbreeAccel> accel;
+  Box3 bounds;
+
+  std::vector<std::unique_ptr<Light>> lights;
+  LightSelection selection;
+  const EnvironmentLight* environment = nullptr;
+  float environmentPmf = 0;
+
+  std::size_t degenerateTriangles = 0;
+  std::size_t blackEmitters = 0;
+};
+
+/// Throws InputError.
+SceneData buildSceneData(const SceneDescription& description);
+
+SceneCounts countScene(const SceneData& data);
+SceneFeatures listFeatures(const SceneData& data);
+
+/// "file.xml:12: shape "lamp"", to begin a message with.
+std::string placeOf(const ShapeDescription& shape);
+
+}  // namespace pt

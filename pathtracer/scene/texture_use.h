@@ -1,0 +1,13 @@
+#pragma once
+
+#include "scene/scene_description.h"
+
+namespace pt {
+
+/// Whether the material, or one inside it, reads a texture.
+bool usesTexture(const SceneDescription& description, int material);
+
+/// Whether the shape's texture coordinates are read at all.
+bool needsUvs(const SceneDescription& description, const ShapeDescription& shape);
+
+}  // namespace pt
