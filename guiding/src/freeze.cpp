@@ -54,21 +54,16 @@ class GridFiller {
   std::vector<std::uint32_t> fill() {
     m_rootOfCell.fill(0);
     visit(0, 0, 0, 0);
-    double total = 0, sum = 0;
+    double total = 0;
     for (const double mass : m_mass) total += mass;
-    int last = GuidingDensity::kGridCells - 1;
-    while (last > 0 && !(m_mass[last] > 0)) --last;
-    for (int c = 0; c < GuidingDensity::kGridCells; ++c) {
-      sum += m_mass[c];
-      m_tree.upTo[c + 1] =
-          c < last ? float(std::min(1.0, sum / total)) : 1.0f;  // rounding must not fill an empty last cell
-    }
-    for (int x = 0; x < GuidingDensity::kGridSize; ++x)
-      m_tree.columnUpTo[x] = m_tree.upTo[x * GuidingDensity::kGridSize];
+    std::array<Grid::Row, Grid::kSize> masses;
+    for (int c = 0; c < Grid::kCells; ++c) masses[c / Grid::kSize][c % Grid::kSize] = float(m_mass[c] / total);
+    m_tree.grid.assign(masses);
 
     std::vector<std::uint32_t> roots;
-    for (int c = 0; c < GuidingDensity::kGridCells; ++c) {
-      if (m_rootOfCell[c] == 0 || !(m_tree.mass(c) > 0)) continue;  // empty subtrees vanish
+    for (int c = 0; c < Grid::kCells; ++c) {
+      if (m_rootOfCell[c] == 0 || !(m_tree.grid.mass(c / Grid::kSize, c % Grid::kSize) > 0))
+        continue;  // empty subtrees vanish
       m_tree.subdivided |= std::uint64_t(1) << c;
       roots.push_back(m_rootOfCell[c]);
     }
@@ -78,7 +73,7 @@ class GridFiller {
  private:
   /// (x, y): lower corner of the node, in grid cells.
   void visit(std::uint32_t index, int depth, int x, int y) {
-    const int half = GuidingDensity::kGridSize >> (depth + 1);
+    const int half = Grid::kSize >> (depth + 1);
     for (int c = 0; c < 4; ++c) {
       const int cx = x + (c & 1) * half, cy = y + (c >> 1) * half;
       const LearnedNode& node = m_nodes[index];
@@ -87,22 +82,21 @@ class GridFiller {
       } else if (half > 1) {
         visit(node.links.childIndex(c), depth + 1, cx, cy);
       } else {
-        m_mass[cx * GuidingDensity::kGridSize + cy] = node.sum[c];
-        m_rootOfCell[cx * GuidingDensity::kGridSize + cy] = node.links.childIndex(c);
+        m_mass[cx * Grid::kSize + cy] = node.sum[c];
+        m_rootOfCell[cx * Grid::kSize + cy] = node.links.childIndex(c);
       }
     }
   }
 
   void spread(double mass, int size, int x, int y) {
     for (int i = 0; i < size; ++i)
-      for (int j = 0; j < size; ++j) m_mass[(x + i) * GuidingDensity::kGridSize + y + j] = mass / (size * size);
+      for (int j = 0; j < size; ++j) m_mass[(x + i) * Grid::kSize + y + j] = mass / (size * size);
   }
 
   const std::vector<LearnedNode>& m_nodes;
   GuidingDensity::Tree& m_tree;
-  std::array<double, GuidingDensity::kGridCells> m_mass{};
-  std::array<std::uint32_t, GuidingDensity::kGridCells>
-      m_rootOfCell{};  ///< 0: the cell is a leaf (node 0 is the tree's root)
+  std::array<double, Grid::kCells> m_mass{};
+  std::array<std::uint32_t, Grid::kCells> m_rootOfCell{};  ///< 0: the cell is a leaf (node 0 is the tree's root)
 };
 
 /// Conditional probabilities of a node's cells; half and half where there is nothing.

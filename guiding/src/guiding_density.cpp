@@ -27,26 +27,20 @@ int chooseHalf(float p, float& x) noexcept {
   return upper;
 }
 
-/// Chooses among eight consecutive cells; upTo[i]: mass of all cells before cell i. Empty cells are never chosen.
-int chooseEighth(const float* upTo, float t) noexcept {
-  int chosen = 0;
-  for (int i = 1; i < GuidingDensity::kGridSize; ++i) chosen += t >= upTo[i];
-  return chosen;
-}
-
 }  // namespace
 
 float GuidingDensity::pdf(std::uint32_t index, const Imath::V3f& wi) const noexcept {
   const Tree& tree = m_trees[index];
   const SquarePoint point = toSquarePoint(sphereToSquare(m_map, wi));
-  constexpr int kShift = SquarePoint::kBits - kGridDepth;
-  const int gridCell = int(point.x >> kShift) * kGridSize + int(point.y >> kShift);
-  float density = kGridCells * kInvFourPi * tree.mass(gridCell);
+  constexpr int kShift = SquarePoint::kBits - Grid::kDepth;
+  const int gridX = int(point.x >> kShift), gridY = int(point.y >> kShift);
+  const int gridCell = gridX * Grid::kSize + gridY;
+  float density = Grid::kCells * kInvFourPi * tree.grid.mass(gridX, gridY);
   if (tree.isLeafCell(gridCell)) return density;
 
   const Node* nodes = m_nodes.data() + tree.firstNode;
   const Node* node = nodes + tree.nodeOfCell(gridCell);
-  for (int depth = kGridDepth;; ++depth) {
+  for (int depth = Grid::kDepth;; ++depth) {
     const int cell = point.cellAt(depth);
     density *= 4 * node->share(cell);
     if (node->links.isLeaf(cell)) return density;
@@ -56,17 +50,12 @@ float GuidingDensity::pdf(std::uint32_t index, const Imath::V3f& wi) const noexc
 
 DirectionSample GuidingDensity::sample(std::uint32_t index, const Imath::V2f& u) const noexcept {
   const Tree& tree = m_trees[index];
-  const int gridColumn = chooseEighth(tree.columnUpTo.data(), u.x);
-  const float* rows = tree.upTo.data() + gridColumn * kGridSize;
-  const float columnMass = rows[kGridSize] - rows[0];
-  float x = belowOne((u.x - rows[0]) / columnMass);
-  const float t = std::min(rows[0] + u.y * columnMass, rows[kGridSize] * kOneMinusEpsilon);
-  const int gridRow = chooseEighth(rows, t);
-  float y = belowOne((t - rows[gridRow]) / (rows[gridRow + 1] - rows[gridRow]));
-  const int gridCell = gridColumn * kGridSize + gridRow;
-  float density = kGridCells * kInvFourPi * tree.mass(gridCell);
-  float size = 1.0f / kGridSize;
-  Imath::V2f corner(float(gridColumn) * size, float(gridRow) * size);
+  const Grid::Choice choice = tree.grid.sample(u);
+  const int gridCell = choice.x * Grid::kSize + choice.y;
+  float x = choice.rest.x, y = choice.rest.y;
+  float density = Grid::kCells * kInvFourPi * tree.grid.mass(choice.x, choice.y);
+  float size = 1.0f / Grid::kSize;
+  Imath::V2f corner(float(choice.x) * size, float(choice.y) * size);
 
   if (!tree.isLeafCell(gridCell)) {
     const Node* nodes = m_nodes.data() + tree.firstNode;
@@ -92,8 +81,8 @@ DirectionSample GuidingDensity::sample(std::uint32_t index, const Imath::V2f& u)
 
 int GuidingDensity::maxDepth(std::uint32_t index) const {
   const Tree& tree = m_trees[index];
-  std::vector<int> depth(tree.nodeCount, kGridDepth + 1);
-  int deepest = kGridDepth;
+  std::vector<int> depth(tree.nodeCount, Grid::kDepth + 1);
+  int deepest = Grid::kDepth;
   for (std::uint32_t i = 0; i < tree.nodeCount; ++i) {
     const QuadtreeLinks links = m_nodes[tree.firstNode + i].links;
     deepest = std::max(deepest, depth[i]);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "directional_quadtree.h"
+#include "grid.h"
 #include "guiding/distribution.h"
 #include "guiding/settings.h"
 
@@ -17,9 +18,6 @@ namespace guiding {
 class GuidingDensity {
  public:
   static constexpr std::uint32_t kNoGuide = ~0u;
-  static constexpr int kGridDepth = 3;
-  static constexpr int kGridSize = 1 << kGridDepth;
-  static constexpr int kGridCells = kGridSize * kGridSize;
 
   /// Four cells, by conditional probabilities. A density is what these floats say: sample() and pdf() read the same
   /// ones, and the shares of siblings add up to 1 by construction.
@@ -36,16 +34,15 @@ class GuidingDensity {
   };
 
   /// One spatial leaf.
-  struct alignas(32) Tree {
-    std::array<float, kGridSize> columnUpTo{};  ///< upTo[8 x]
-    std::array<float, kGridCells + 1> upTo{};   ///< mass of all grid cells 8 x + y before this one; ends with 1
+  struct Tree {
+    Grid grid{};
     float bsdfSamplingFraction = 1;
     float emptyArea = 0;          ///< share of the sphere where the density is zero
     std::uint32_t firstNode = 0;  ///< in the array of all trees' nodes
     std::uint32_t nodeCount = 0;
-    std::uint64_t subdivided = 0;  ///< bit c: cell c goes on in a node; those nodes stand first, in this order
+    std::uint64_t subdivided =
+        0;  ///< bit 8 x + y: the grid cell goes on in a node; those nodes stand first, in this order
 
-    float mass(int cell) const noexcept { return upTo[cell + 1] - upTo[cell]; }
     bool isLeafCell(int cell) const noexcept { return !(subdivided >> cell & 1u); }
     std::uint32_t nodeOfCell(int cell) const noexcept {
       return std::uint32_t(__builtin_popcountll(subdivided & ((std::uint64_t(1) << cell) - 1)));
@@ -71,7 +68,7 @@ class GuidingDensity {
   std::size_t memoryBytes() const noexcept {
     return m_nodes.capacity() * sizeof(Node) + m_trees.capacity() * sizeof(Tree);
   }
-  /// Depth of the deepest cell of a tree; the grid alone is kGridDepth.
+  /// Depth of the deepest cell of a tree; the grid alone is Grid::kDepth.
   int maxDepth(std::uint32_t index) const;
 
   /// Takes over trees and nodes that have been laid out already.

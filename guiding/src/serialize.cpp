@@ -82,7 +82,8 @@ void getLeaf(ByteReader& in, SpatialLeaf& leaf) {
 void putDensity(ByteWriter& out, const GuidingDensity& density) {
   out.put(std::uint64_t(density.trees().size()));
   for (const auto& tree : density.trees()) {
-    for (const float upTo : tree.upTo) out.put(upTo);
+    for (const auto& column : tree.grid.upTo)
+      for (const float upTo : column) out.put(upTo);
     out.put(tree.bsdfSamplingFraction);
     out.put(tree.emptyArea);
     out.put(tree.firstNode);
@@ -98,13 +99,14 @@ void putDensity(ByteWriter& out, const GuidingDensity& density) {
   }
 }
 
-constexpr std::size_t kTreeBytes = (GuidingDensity::kGridCells + 1) * 4 + 24, kNodeBytes = 17;
+constexpr std::size_t kTreeBytes = (Grid::kSize + 1) * Grid::kSize * 4 + 24, kNodeBytes = 17;
 
 void getDensity(ByteReader& in, GuidingDensity& density) {
   std::vector<GuidingDensity::Tree> trees(in.getCount(kTreeBytes));
   for (auto& tree : trees) {
-    for (float& upTo : tree.upTo) upTo = in.get<float>();
-    for (int x = 0; x < GuidingDensity::kGridSize; ++x) tree.columnUpTo[x] = tree.upTo[x * GuidingDensity::kGridSize];
+    for (auto& column : tree.grid.upTo)
+      for (float& upTo : column) upTo = in.get<float>();
+    tree.grid.sumRows();
     tree.bsdfSamplingFraction = in.get<float>();
     tree.emptyArea = in.get<float>();
     tree.firstNode = in.get<std::uint32_t>();

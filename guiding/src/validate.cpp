@@ -23,13 +23,15 @@ Status validateBuilding(const SpatialLeaf& leaf, std::size_t index, int maxDepth
 }
 
 bool gridIsSound(const GuidingDensity::Tree& tree) {
-  if (tree.upTo.front() != 0 || tree.upTo.back() != 1) return false;
-  for (int cell = 0; cell < GuidingDensity::kGridCells; ++cell) {
-    if (!(tree.mass(cell) >= 0) || (tree.mass(cell) == 0 && !tree.isLeafCell(cell))) return false;
-    if (cell % GuidingDensity::kGridSize == 0 && tree.columnUpTo[cell / GuidingDensity::kGridSize] != tree.upTo[cell])
-      return false;
+  for (int y = 0; y < Grid::kSize; ++y) {
+    if (tree.grid.upTo[0][y] != 0 || !(tree.grid.rowUpTo[y] >= 0)) return false;
+    if (y > 0 && tree.grid.rowUpTo[y] != tree.grid.rowUpTo[y - 1] + tree.grid.upTo[Grid::kSize][y - 1]) return false;
+    for (int x = 0; x < Grid::kSize; ++x) {
+      const float mass = tree.grid.mass(x, y);
+      if (!(mass >= 0) || (mass == 0 && !tree.isLeafCell(x * Grid::kSize + y))) return false;
+    }
   }
-  return true;
+  return tree.grid.rowUpTo[0] == 0 && std::abs(tree.grid.total() - 1) < 4e-6f;
 }
 
 bool isProbability(float p) {
@@ -42,7 +44,7 @@ Status validateFrozen(const GuidingDensity& density, std::size_t index, int maxD
     return violation("extent of frozen tree", index);
   const GuidingDensity::Node* nodes = density.nodes().data() + tree.firstNode;
   const auto roots = std::size_t(std::popcount(tree.subdivided));
-  if (!linksAreSound(nodes, tree.nodeCount, roots, GuidingDensity::kGridDepth + 1, maxDepth))
+  if (!linksAreSound(nodes, tree.nodeCount, roots, Grid::kDepth + 1, maxDepth))
     return violation("links of frozen tree", index);
   if (!gridIsSound(tree)) return violation("grid of frozen tree", index);
   if (!(tree.bsdfSamplingFraction > 0 && tree.bsdfSamplingFraction <= 1))

@@ -140,14 +140,15 @@ GuidingSettings presetOf(const Place& place) {
 
 }  // namespace
 
-GuidingSettings guidingSettingsFromJson(const nlohmann::ordered_json& json, const std::string& source) {
-  const Place root{json, source, ""};
+GuidingSettings guidingSettingsFromJson(const nlohmann::ordered_json& json, const std::string& source,
+                                        const std::string& pointer) {
+  const Place root{json, source, pointer};
   GuidingSettings settings = presetOf(root);
   readMembers(root, settings, {"preset"});
   if (const auto status = settings.field.validate(); !status)
-    throw InputError(source + "#/field: " + status.error().text);
+    Place{json, source, pointer + "/field"}.fail(status.error().text);
   if (const auto status = settings.schedule.validate(); !status)
-    throw InputError(source + "#/schedule: " + status.error().text);
+    Place{json, source, pointer + "/schedule"}.fail(status.error().text);
   return settings;
 }
 

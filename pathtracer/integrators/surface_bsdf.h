@@ -26,6 +26,7 @@ class SurfaceBsdf {
 
   guiding::BsdfDraw<Spectrum> sample(float uLobe, const Vec2& u) const noexcept {
     const BsdfSample s = m_si.material->sample(m_si, m_woLocal, uLobe, u);
+    if (isBlack(s.weight)) return {m_si.frame.n, Spectrum(0.0f), 0, false};  // its direction may be anything
     guiding::BsdfDraw<Spectrum> draw{m_si.frame.toWorld(s.wi), s.weight, s.pdf, s.isDelta};
     if (leaks(draw.wi, s.wi)) draw.weight = Spectrum(0.0f);
     return draw;
