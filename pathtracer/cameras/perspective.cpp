@@ -26,9 +26,11 @@ double tanHalfWidth(const PerspectiveCamera& camera, double aspect) {
 }
 
 void validate(const PerspectiveCamera& camera, const FilmDescription& film) {
-  if (film.width < 1 || film.height < 1 || film.width > kMaxFilmSize || film.height > kMaxFilmSize)
-    throw InputError(fmt::format("film: {}x{} pixels are impossible; give a width and height from 1 to {}", film.width,
-                                 film.height, kMaxFilmSize));
+  if (film.width < 1 || film.height < 1 || film.width > kMaxFilmSize || film.height > kMaxFilmSize ||
+      std::int64_t(film.width) * film.height > kMaxFilmPixels)
+    throw InputError(
+        fmt::format("film: {}x{} pixels are impossible; give a width and height from 1 to {}, {} pixels in all",
+                    film.width, film.height, kMaxFilmSize, kMaxFilmPixels));
   if (!(camera.fovDegrees > 0 && camera.fovDegrees < 180))
     throw InputError(fmt::format("camera: a field of view of {} degrees is impossible; give one between 0 and 180",
                                  camera.fovDegrees));

@@ -173,8 +173,9 @@ struct PerspectiveCamera {
 
 enum class ReconstructionFilter { Box, Tent, Gaussian };
 
-/// Largest width or height of a film, in pixels.
+/// Largest width or height of a picture, and the most pixels of one.
 inline constexpr int kMaxFilmSize = 65536;
+inline constexpr std::int64_t kMaxFilmPixels = std::int64_t(1) << 28;
 
 struct FilmDescription {
   int width = 768, height = 576;

@@ -1,5 +1,5 @@
 #include "catch.h"
-#include "scene_fixture.h"
+#include "pathtracer/scene/scene_fixture.h"
 
 using namespace pt;
 

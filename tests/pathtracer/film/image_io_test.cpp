@@ -1,0 +1,148 @@
+#include "film/image_io.h"
+
+#include <OpenImageIO/imageio.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "catch.h"
+#include "core/error.h"
+
+using namespace pt;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder that is gone after the test.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("guiding_image_io_" + std::to_string(getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+};
+
+Image gradient(int width, int height) {
+  Image image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) image.at(x, y) = Spectrum(0.1f * float(x), 1e-3f + float(y), 1e4f * float(x * y));
+  return image;
+}
+
+}  // namespace
+
+TEST_CASE("Floats written to an EXR come back to the bit") {
+  const Folder folder;
+  const Image image = gradient(7, 5);
+  writeExr(folder.path / "a.exr", image);
+  const Image back = readImage(folder.path / "a.exr");
+  REQUIRE(back.width == 7);
+  REQUIRE(back.height == 5);
+  CHECK(back.pixels == image.pixels);
+  CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);  // no temporary file is left
+}
+
+TEST_CASE("Half floats keep three digits in half the space") {
+  const Folder folder;
+  Image image(128, 128);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = Spectrum(std::sqrt(float(i)));
+  ExrOptions options;
+  options.half = true;
+  writeExr(folder.path / "half.exr", image, options);
+  writeExr(folder.path / "float.exr", image);
+  const Image back = readImage(folder.path / "half.exr");
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    REQUIRE(back.pixels[i].x == Approx(image.pixels[i].x).epsilon(1e-3));
+  CHECK(fs::file_size(folder.path / "half.exr") < fs::file_size(folder.path / "float.exr"));
+}
+
+TEST_CASE("Layers and attributes stand beside the colours") {
+  const Folder folder;
+  const Image image = gradient(4, 3);
+  Image normal(4, 3), depth(4, 3);
+  normal.at(1, 2) = Spectrum(0.25f, -0.5f, 0.75f);
+  depth.at(1, 2) = Spectrum(42.0f);
+  ExrOptions options;
+  options.attributes = {{"scene", "cbox"}, {"spp", 127}, {"seconds", 1.5f}};
+  options.layers = {{"normal", "XYZ", &normal}, {"depth", "Z", &depth}};
+  writeExr(folder.path / "a.exr", image, options);
+
+  CHECK(readImage(folder.path / "a.exr").pixels == image.pixels);
+  const auto input = OIIO::ImageInput::open((folder.path / "a.exr").string());
+  REQUIRE(input);
+  const OIIO::ImageSpec spec = input->spec();
+  CHECK(spec.nchannels == 7);
+  CHECK(spec.get_string_attribute("scene") == "cbox");
+  CHECK(spec.get_int_attribute("spp") == 127);
+  CHECK(spec.get_float_attribute("seconds") == 1.5f);
+  std::vector<float> values(std::size_t(4 * 3 * spec.nchannels));
+  REQUIRE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()));
+  const auto value = [&](const char* channel) {
+    REQUIRE(spec.channelindex(channel) >= 0);
+    return values[std::size_t((2 * 4 + 1) * spec.nchannels + spec.channelindex(channel))];
+  };
+  CHECK(value("normal.X") == 0.25f);
+  CHECK(value("normal.Y") == -0.5f);
+  CHECK(value("normal.Z") == 0.75f);
+  CHECK(value("depth.Z") == 42);
+}
+
+TEST_CASE("A PNG is an sRGB preview: exposed, clamped, and read back linear") {
+  const Folder folder;
+  Image image(4, 1);
+  image.at(0, 0) = Spectrum(0.25f, 0.5f, 0);
+  image.at(1, 0) = Spectrum(100, -1, std::numeric_limits<float>::quiet_NaN());
+  image.at(2, 0) = Spectrum(0.001f);
+  writePng(folder.path / "a.png", image);
+  const Image back = readImage(folder.path / "a.png");
+  CHECK(back.at(0, 0).x == Approx(0.25).epsilon(0.02));
+  CHECK(back.at(0, 0).y == Approx(0.5).epsilon(0.02));
+  CHECK(back.at(1, 0) == Spectrum(1, 0, 0));
+  CHECK(back.at(2, 0).x == Approx(0.001).epsilon(0.2));
+
+  writePng(folder.path / "b.png", image, 1);
+  CHECK(readImage(folder.path / "b.png").at(0, 0).x == Approx(0.5).epsilon(0.02));
+}
+
+TEST_CASE("Files that are no pictures are refused by name") {
+  const Folder folder;
+  CHECK_THROWS_AS(readImage(folder.path / "none.exr"), InputError);
+  CHECK_THROWS_WITH(readImage(folder.path / "none.exr"), Contains("none.exr") && Contains("no such file"));
+  std::ofstream(folder.path / "text.exr") << "not a picture";
+  CHECK_THROWS_WITH(readImage(folder.path / "text.exr"), Contains("text.exr"));
+
+  writeExr(folder.path / "whole.exr", gradient(64, 64));
+  std::ifstream whole(folder.path / "whole.exr", std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(whole)), {});
+  std::ofstream(folder.path / "cut.exr", std::ios::binary) << bytes.substr(0, bytes.size() / 2);
+  CHECK_THROWS_AS(readImage(folder.path / "cut.exr"), InputError);
+}
+
+TEST_CASE("A failed write tells path and reason and keeps the old file") {
+  const Folder folder;
+  const fs::path file = folder.path / "a.exr";
+  const Image old = gradient(3, 3);
+  writeExr(file, old);
+
+  // No file may grow beyond 4 KiB: as good as a full disk.
+  rlimit limit{};
+  REQUIRE(getrlimit(RLIMIT_FSIZE, &limit) == 0);
+  const rlimit small{4096, limit.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
+  Image large(512, 512);
+  for (std::size_t i = 0; i < large.pixels.size(); ++i) large.pixels[i] = Spectrum(std::sin(float(i)));
+  std::string message;
+  try {
+    writeExr(file, large);
+  } catch (const WorkError& error) {
+    message = error.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, handler);
+
+  CHECK_THAT(message, Contains("a.exr") && Contains("cannot be written"));
+  CHECK(readImage(file).pixels == old.pixels);
+  CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
+  CHECK_THROWS(writeExr(folder.path / "missing" / "a.exr", old));
+}
