@@ -25,7 +25,9 @@ FrozenLeaf freezeLeaf(SpatialLeaf& leaf, const FieldSettings& settings) {
     return frozen;
   }
   const float assumed = settings.bsdfSamplingFraction * settings.compensation.strength;
-  if (settings.bsdfSamplingFraction < 1) frozen.tree = freeze(leaf.building, settings.compensation.form, assumed);
+  // A product is compensated where it is formed, at the shading point.
+  const CompensationForm form = settings.product ? CompensationForm::None : settings.compensation.form;
+  if (settings.bsdfSamplingFraction < 1) frozen.tree = freeze(leaf.building, form, assumed);
   frozen.next = leaf.building.refined(total, settings.dTreeThreshold, settings.maxDTreeDepth);
   return frozen;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <new>
 
+#include "bind_grid.h"
 #include "field_state.h"
 #include "training.h"
 #include "validate.h"
@@ -42,10 +43,29 @@ void Field::endIteration(double spp) {
 }
 
 GuidingDistribution Field::bind(const Imath::V3f& position) const noexcept {
-  const std::uint32_t tree = m_state->densityOfLeaf[m_state->tree.leafAt(position)];
-  if (tree == GuidingDensity::kNoGuide) return {};
-  m_state->density.prefetch(tree);
-  return {&m_state->density, tree, m_state->density.tree(tree).bsdfSamplingFraction};
+  return bind(position, LobeSet());
+}
+
+GuidingDistribution Field::bind(const Imath::V3f& position, const LobeSet& lobes) const noexcept {
+  GuidingDistribution guide;
+  const GuidingDensity& density = m_state->density;
+  const std::uint32_t index = m_state->densityOfLeaf[m_state->tree.leafAt(position)];
+  if (index == GuidingDensity::kNoGuide) return guide;
+  density.prefetch(index);
+  const GuidingDensity::Tree& tree = density.tree(index);
+
+  const FieldSettings& settings = m_state->settings;
+  if (settings.product) {
+    const float assumed = tree.bsdfSamplingFraction * settings.compensation.strength;
+    if (!bindGrid(density.geometry(), tree.grid, lobes.lobes(), settings.compensation.form, assumed, guide.m_boundGrid))
+      return guide;
+  } else {
+    guide.m_grid = &tree.grid;
+  }
+  guide.m_density = &density;
+  guide.m_tree = index;
+  guide.m_fraction = tree.bsdfSamplingFraction;
+  return guide;
 }
 
 bool Field::hasGuide() const noexcept {
@@ -96,10 +116,11 @@ FieldStats Field::stats() const {
 }
 
 DirectionSample GuidingDistribution::sample(const Imath::V2f& u) const noexcept {
-  return m_density->sample(m_leaf, u);
+  return m_density->sample(m_tree, m_grid ? *m_grid : m_boundGrid, u);
 }
+
 float GuidingDistribution::pdf(const Imath::V3f& wi) const noexcept {
-  return m_density->pdf(m_leaf, wi);
+  return m_density->pdf(m_tree, m_grid ? *m_grid : m_boundGrid, wi);
 }
 
 }  // namespace guiding

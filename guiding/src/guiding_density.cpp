@@ -29,13 +29,13 @@ int chooseHalf(float p, float& x) noexcept {
 
 }  // namespace
 
-float GuidingDensity::pdf(std::uint32_t index, const Imath::V3f& wi) const noexcept {
+float GuidingDensity::pdf(std::uint32_t index, const Grid& grid, const Imath::V3f& wi) const noexcept {
   const Tree& tree = m_trees[index];
   const SquarePoint point = toSquarePoint(sphereToSquare(m_map, wi));
   constexpr int kShift = SquarePoint::kBits - Grid::kDepth;
   const int gridX = int(point.x >> kShift), gridY = int(point.y >> kShift);
   const int gridCell = gridX * Grid::kSize + gridY;
-  float density = Grid::kCells * kInvFourPi * tree.grid.mass(gridX, gridY);
+  float density = Grid::kCells * kInvFourPi * grid.mass(gridX, gridY);
   if (tree.isLeafCell(gridCell)) return density;
 
   const Node* nodes = m_nodes.data() + tree.firstNode;
@@ -48,12 +48,12 @@ float GuidingDensity::pdf(std::uint32_t index, const Imath::V3f& wi) const noexc
   }
 }
 
-DirectionSample GuidingDensity::sample(std::uint32_t index, const Imath::V2f& u) const noexcept {
+DirectionSample GuidingDensity::sample(std::uint32_t index, const Grid& grid, const Imath::V2f& u) const noexcept {
   const Tree& tree = m_trees[index];
-  const Grid::Choice choice = tree.grid.sample(u);
+  const Grid::Choice choice = grid.sample(u);
   const int gridCell = choice.x * Grid::kSize + choice.y;
   float x = choice.rest.x, y = choice.rest.y;
-  float density = Grid::kCells * kInvFourPi * tree.grid.mass(choice.x, choice.y);
+  float density = Grid::kCells * kInvFourPi * grid.mass(choice.x, choice.y);
   float size = 1.0f / Grid::kSize;
   Imath::V2f corner(float(choice.x) * size, float(choice.y) * size);
 
@@ -75,7 +75,7 @@ DirectionSample GuidingDensity::sample(std::uint32_t index, const Imath::V2f& u)
   const Imath::V3f wi = squareToSphere(m_map, corner + Imath::V2f(x, y) * size);
   // Close to its cell's border the float direction may belong to the neighbour; the direction is the truth.
   const float inside = std::min(std::min(x, 1 - x), std::min(y, 1 - y)) * size;
-  if (inside <= squareRoundTripError(m_map, wi)) return {wi, pdf(index, wi)};
+  if (inside <= squareRoundTripError(m_map, wi)) return {wi, pdf(index, grid, wi)};
   return {wi, density};
 }
 

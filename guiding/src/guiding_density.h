@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "directional_quadtree.h"
-#include "grid.h"
+#include "grid_geometry.h"
+#include "guiding/detail/grid.h"
 #include "guiding/distribution.h"
 #include "guiding/settings.h"
 
@@ -49,8 +50,7 @@ class GuidingDensity {
     }
   };
 
-  GuidingDensity() = default;
-  explicit GuidingDensity(DirectionMap map) : m_map(map) {}
+  explicit GuidingDensity(DirectionMap map) : m_map(map), m_geometry(map) {}
 
   /// Starts to bring a tree's grid near, while the host still evaluates its BSDF.
   void prefetch(std::uint32_t index) const noexcept {
@@ -59,9 +59,11 @@ class GuidingDensity {
   }
 
   /// Draws from tree `index`. The density returned is that of the returned float direction.
-  DirectionSample sample(std::uint32_t index, const Imath::V2f& u) const noexcept;
-  float pdf(std::uint32_t index, const Imath::V3f& wi) const noexcept;
+  /// `grid` takes the place of the tree's own top where the density is bound to a shading point.
+  DirectionSample sample(std::uint32_t index, const Grid& grid, const Imath::V2f& u) const noexcept;
+  float pdf(std::uint32_t index, const Grid& grid, const Imath::V3f& wi) const noexcept;
 
+  const GridGeometry& geometry() const noexcept { return m_geometry; }
   const Tree& tree(std::uint32_t index) const noexcept { return m_trees[index]; }
   const std::vector<Tree>& trees() const noexcept { return m_trees; }
   const std::vector<Node>& nodes() const noexcept { return m_nodes; }
@@ -78,7 +80,8 @@ class GuidingDensity {
   }
 
  private:
-  DirectionMap m_map = DirectionMap::Cylinder;
+  DirectionMap m_map;
+  GridGeometry m_geometry;
   std::vector<Tree> m_trees;
   std::vector<Node> m_nodes;
 };

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "water_level.h"
+
 namespace guiding {
 
 namespace {
@@ -23,6 +25,40 @@ class ExactSum {
   double m_sum = 0, m_correction = 0;
 };
 
+/// The same for eight cells at a time.
+class ExactSum8 {
+ public:
+  void add(const Double8& x) noexcept {
+    const Double8 t = m_sum + x;
+    const Double8 sumSize = m_sum < 0 ? -m_sum : m_sum, xSize = x < 0 ? -x : x;
+    m_correction += sumSize >= xSize ? (m_sum - t) + x : (x - t) + m_sum;
+    m_sum = t;
+  }
+  double total() const noexcept {
+    ExactSum sum;
+    for (int lane = 0; lane < 8; ++lane) sum.add(m_sum[lane]);
+    for (int lane = 0; lane < 8; ++lane) sum.add(m_correction[lane]);
+    return sum.value();
+  }
+
+ private:
+  Double8 m_sum{}, m_correction{};
+};
+
+/// visit(t, b) for eight cells at a time, t times `scale`; missing ones are empty.
+template <class Real, class Visit>
+void forEachEight(std::span<const Real> t, std::span<const Real> b, double scale, Visit&& visit) noexcept {
+  for (std::size_t j = 0; j < t.size(); j += 8) {
+    Double8 t8{}, b8{};
+    const std::size_t count = std::min<std::size_t>(8, t.size() - j);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      t8[lane] = t[j + lane] * scale;
+      b8[lane] = b[j + lane];
+    }
+    visit(t8, b8);
+  }
+}
+
 /// Largest mass; negative if any mass of either technique is unusable.
 template <class Real>
 double largestMass(std::span<const Real> t, std::span<const Real> b) noexcept {
@@ -33,28 +69,6 @@ double largestMass(std::span<const Real> t, std::span<const Real> b) noexcept {
     largest = std::max(largest, double(t[j]));
   }
   return largest;
-}
-
-/// Solves sum_j max(alpha b_j, t_j/lambda) = alpha sum_j b_j + (1 - alpha) for lambda, with t scaled to a total of 1.
-/// Dropping every cell with t <= lambda alpha b raises lambda, so dropped cells never return and the loop ends.
-template <class Real>
-double waterLevel(std::span<const Real> t, std::span<const Real> b, double alpha, double scale) noexcept {
-  double lambda = 0;
-  std::size_t activeBefore = t.size() + 1;
-  for (;;) {
-    ExactSum activeT, activeB;
-    std::size_t active = 0;
-    for (std::size_t j = 0; j < t.size(); ++j) {
-      const double tj = t[j] * scale;
-      if (!(tj > lambda * alpha * b[j])) continue;
-      activeT.add(tj);
-      activeB.add(b[j]);
-      ++active;
-    }
-    if (active == activeBefore || active == 0) return lambda;
-    activeBefore = active;
-    lambda = activeT.value() / ((1 - alpha) + alpha * activeB.value());
-  }
 }
 
 template <class Real>
@@ -78,7 +92,10 @@ CompensationResult solve(std::span<const Real> t, std::span<const Real> b, doubl
   if (!std::isfinite(scale)) return nothing();
 
   CompensationResult result;
-  result.lambda = form == CompensationForm::WaterFilling ? waterLevel(t, b, alpha, scale) : 1.0;
+  result.lambda =
+      form == CompensationForm::WaterFilling
+          ? waterLevel<Double8, ExactSum8, double>([&](auto&& visit) { forEachEight(t, b, scale, visit); }, alpha)
+          : 1.0;
   const double floor = form == CompensationForm::None ? 0.0 : alpha;
   ExactSum kept, removed;
   for (std::size_t j = 0; j < t.size(); ++j) {

@@ -28,6 +28,7 @@ void putSettings(ByteWriter& out, const FieldSettings& s) {
   out.put(s.bsdfSamplingFraction);
   out.put(std::uint32_t(s.compensation.form));
   out.put(s.compensation.strength);
+  out.put(std::uint8_t(s.product));
 }
 
 bool getSettings(ByteReader& in, FieldSettings& s) {
@@ -39,6 +40,7 @@ bool getSettings(ByteReader& in, FieldSettings& s) {
   s.bsdfSamplingFraction = in.get<float>();
   const auto form = in.get<std::uint32_t>();
   s.compensation.strength = in.get<float>();
+  s.product = in.get<std::uint8_t>() != 0;
   if (map > std::uint32_t(DirectionMap::Octahedral) || form > std::uint32_t(CompensationForm::ClipRenormalise))
     return false;
   s.directionMap = DirectionMap(map);

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "guiding/detail/grid.h"
+
 namespace guiding {
 
 class GuidingDensity;
@@ -15,13 +17,11 @@ struct DirectionSample {
 };
 
 /// The learned density at one shading point: a view on the frozen field, valid until the field's next endIteration().
-/// Free to copy, safe to use from any thread, allocates nothing.
+/// Cheap to make, safe to use from any thread, allocates nothing.
 class GuidingDistribution {
  public:
   /// No guide: the host samples its BSDF alone.
-  GuidingDistribution() noexcept = default;
-  GuidingDistribution(const GuidingDensity* density, std::uint32_t leaf, float fraction) noexcept
-      : m_density(density), m_leaf(leaf), m_fraction(fraction) {}
+  GuidingDistribution() noexcept {}
 
   /// False where nothing was learned or guiding cannot help; bsdfSamplingFraction() is 1 then.
   explicit operator bool() const noexcept { return m_density != nullptr; }
@@ -36,9 +36,12 @@ class GuidingDistribution {
   float pdf(const Imath::V3f& wi) const noexcept;
 
  private:
+  friend class Field;
   const GuidingDensity* m_density = nullptr;
-  std::uint32_t m_leaf = 0;
+  const Grid* m_grid = nullptr;  ///< of the frozen tree; null: m_boundGrid
+  std::uint32_t m_tree = 0;
   float m_fraction = 1;
+  Grid m_boundGrid;  ///< set only where the density was bound to lobes
 };
 
 }  // namespace guiding

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "guiding/distribution.h"
+#include "guiding/lobes.h"
 #include "guiding/result.h"
 #include "guiding/sample.h"
 #include "guiding/settings.h"
@@ -44,6 +45,10 @@ class Field {
   /// The density at a point, world space; "no guide" before the first iteration has ended and where nothing was
   /// learned.
   GuidingDistribution bind(const Imath::V3f& position) const noexcept;
+
+  /// The same, and where settings().product is set the density is bound to the shading point: multiplied with the
+  /// lobes, world space, and compensated against them; "no guide" where the lobes reflect no light that was learned.
+  GuidingDistribution bind(const Imath::V3f& position, const LobeSet& lobes) const noexcept;
 
   /// True once bind() can return a guide somewhere.
   bool hasGuide() const noexcept;

@@ -46,6 +46,10 @@ struct FieldSettings {
 
   CompensationSettings compensation;
 
+  /// Multiply the learned radiance with the host's lobes at each shading point (see Field::bind). Compensation then
+  /// happens there, against the lobes instead of a uniform density.
+  bool product = false;
+
   /// The algorithm of the paper [Müller et al. 2017]: no compensation, fixed fraction one half.
   static FieldSettings mueller2017() { return {}; }
 

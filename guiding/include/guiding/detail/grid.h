@@ -1,12 +1,14 @@
 #pragma once
 
+#include <ImathVec.h>
+
 #include <algorithm>
 #include <array>
 
-#include "sphere_map.h"
-
 namespace guiding {
 
+/// Private to the library; here because a GuidingDistribution carries one.
+///
 /// A density on 8 x 8 equal cells of the unit square, ready to be sampled: first the row, then the cell within the row.
 ///
 /// Arrays run over rows in the inner dimension, so that eight rows make one vector: what is done to all cells is done
@@ -15,6 +17,7 @@ struct alignas(32) Grid {
   static constexpr int kDepth = 3;
   static constexpr int kSize = 1 << kDepth;
   static constexpr int kCells = kSize * kSize;
+  static constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
   using Row = std::array<float, kSize>;  ///< one number for each y
 
   Row rowUpTo;                      ///< mass of all rows before row y
