@@ -1,88 +1,113 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <bit>
 #include <cmath>
 #include <limits>
 
-#include "sample_sequence.h"
+#include "directional_filter.h"
+#include "leaf_partition.h"
 #include "training.h"
 
 namespace guiding {
 
 namespace {
 
-constexpr std::uint32_t kDropped = ~0u;
-
 bool isUsable(const RadianceSample& s) noexcept {
   constexpr float kMax = std::numeric_limits<float>::max();
   const auto finite = [](const Imath::V3f& v) {
     return std::abs(v.x) <= kMax && std::abs(v.y) <= kMax && std::abs(v.z) <= kMax;
   };
-  return s.radiance >= 0 && s.radiance <= kMax && s.pdf > 0 && s.pdf <= kMax && finite(s.position) &&
-         finite(s.direction);
+  return s.radiance >= 0 && s.radiance <= kMax && s.product >= 0 && s.product <= kMax && s.pdf > 0 && s.pdf <= kMax &&
+         s.radiance / s.pdf <= kMax && s.bsdfPdf >= 0 && s.bsdfPdf <= kMax && s.guidePdf >= 0 && s.guidePdf <= kMax &&
+         finite(s.position) && finite(s.direction);
 }
 
-/// A sample on its way into a leaf.
+/// Three numbers in [0, 1) that depend on the sample alone [splitmix64: Steele et al. 2014].
+Imath::V3f jitterOf(const RadianceSample& s) noexcept {
+  const auto bits = [](float x) { return std::uint64_t(std::bit_cast<std::uint32_t>(x)); };
+  std::uint64_t state = bits(s.position.x) ^ bits(s.direction.x) << 32;
+  state = (state ^ bits(s.position.y) ^ bits(s.direction.y) << 32) * 0x9e3779b97f4a7c15ull;
+  state ^= bits(s.position.z) ^ bits(s.direction.z) << 32;
+  Imath::V3f u;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::uint64_t z = state += 0x9e3779b97f4a7c15ull;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+    u[axis] = float((z ^ (z >> 31)) >> 40) * 0x1p-24f;
+  }
+  return u;
+}
+
+/// The leaf that learns from the sample.
+std::uint32_t learningLeaf(const Field::State& state, const RadianceSample& sample) noexcept {
+  if (state.settings.spatialFilter == SpatialFilter::Nearest) return state.tree.leafAt(sample.position);
+  const Imath::V3f size = state.tree.leafSizeAt(sample.position);
+  const Imath::V3f u = jitterOf(sample);
+  Imath::V3f moved = sample.position + size * (u - Imath::V3f(0.5f));
+  for (int axis = 0; axis < 3; ++axis)
+    moved[axis] = std::clamp(moved[axis], state.bounds.min[axis], state.bounds.max[axis]);
+  return state.tree.leafAt(moved);
+}
+
+/// A sample on its way into a quadtree.
 struct Splat {
   SquarePoint point;
   float value;  ///< radiance / pdf
 };
 
-/// A run of consecutive samples, the unit of parallel work. Runs are cut by the number of samples alone, and the
-/// partition by leaf is stable, so every leaf sees its samples in their order on any number of threads.
-struct Run {
-  std::size_t begin = 0, end = 0;
-  std::vector<std::uint32_t> slotOfLeaf;  ///< first the number of splats of each leaf, then where the next one goes
-  std::uint64_t dropped = 0, outside = 0;
-};
-
-std::vector<Run> cutRuns(std::size_t sampleCount) {
-  constexpr std::size_t kShortest = 1 << 14, kMost = 32;
-  const std::size_t length = std::max(kShortest, (sampleCount + kMost - 1) / kMost);
-  std::vector<Run> runs;
-  for (std::size_t begin = 0; begin < sampleCount; begin += length)
-    runs.push_back({begin, std::min(begin + length, sampleCount), {}, 0, 0});
-  return runs;
-}
-
-/// Finds each sample's leaf and counts.
-void assignLeaves(const Field::State& state, const SampleSequence& samples, Run& run,
-                  std::vector<std::uint32_t>& leafOf) {
-  run.slotOfLeaf.assign(state.leaves.size(), 0);
-  samples.forEach(run.begin, run.end, [&](std::size_t i, const RadianceSample& sample) {
-    if (!isUsable(sample)) {
-      leafOf[i] = kDropped;
-      ++run.dropped;
-      return;
+void learnRadiance(Field::State& state, const SampleSequence& samples) {
+  const DirectionMap map = state.settings.directionMap;
+  const auto splats = partitionByLeaf<Splat>(
+      samples, state.leaves.size(),
+      [&](const RadianceSample& s) { return isUsable(s) ? learningLeaf(state, s) : kNoLeaf; },
+      [&](const RadianceSample& s) {
+        return Splat{toSquarePoint(sphereToSquare(map, s.direction)), s.radiance / s.pdf};
+      });
+  const bool box = state.settings.directionalFilter == DirectionalFilter::Box;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, state.leaves.size(), 16), [&](const auto& range) {
+    for (std::size_t leaf = range.begin(); leaf != range.end(); ++leaf) {
+      SpatialLeaf& target = state.leaves[leaf];
+      target.sampleCount += splats.ofLeaf(leaf).size();
+      for (const Splat& splat : splats.ofLeaf(leaf)) {
+        if (!(splat.value > 0)) continue;
+        if (box)
+          splatBox(target.building, map, splat.point, splat.value);
+        else
+          target.building.splat(splat.point, splat.value);
+      }
     }
-    if (!state.tree.contains(sample.position)) ++run.outside;
-    leafOf[i] = state.tree.leafAt(sample.position);
-    ++run.slotOfLeaf[leafOf[i]];
   });
 }
 
-/// Turns counts into positions: leaf by leaf, run by run. Returns where each leaf's splats begin, then their total.
-std::vector<std::size_t> layOut(std::vector<Run>& runs, std::size_t leafCount) {
-  std::vector<std::size_t> begin(leafCount + 1, 0);
-  std::size_t position = 0;
-  for (std::size_t leaf = 0; leaf < leafCount; ++leaf) {
-    begin[leaf] = position;
-    for (Run& run : runs) {
-      const std::uint32_t count = run.slotOfLeaf[leaf];
-      run.slotOfLeaf[leaf] = std::uint32_t(position);
-      position += count;
+/// Fractions are learned in the leaf whose guide was mixed in, from samples that had one.
+void learnFraction(Field::State& state, const SampleSequence& samples) {
+  const auto records = partitionByLeaf<FractionRecord>(
+      samples, state.leaves.size(),
+      [&](const RadianceSample& s) {
+        const bool wasGuided = s.pdf != s.bsdfPdf;
+        return wasGuided && isUsable(s) ? state.tree.leafAt(s.position) : kNoLeaf;
+      },
+      [](const RadianceSample& s) {
+        return FractionRecord{s.product, s.pdf, s.bsdfPdf, s.guidePdf};
+      });
+  const FractionLoss loss = state.settings.fractionLoss;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, state.leaves.size(), 16), [&](const auto& range) {
+    for (std::size_t leaf = range.begin(); leaf != range.end(); ++leaf) {
+      if (state.settings.fractionMode == FractionMode::Adam)
+        state.leaves[leaf].adam.learn(records.ofLeaf(leaf), loss);
+      else
+        state.leaves[leaf].slopes.learn(records.ofLeaf(leaf), loss);
     }
-  }
-  begin[leafCount] = position;
-  return begin;
+  });
 }
 
-void scatter(const FieldSettings& settings, const SampleSequence& samples, Run& run,
-             const std::vector<std::uint32_t>& leafOf, std::vector<Splat>& splats) {
-  samples.forEach(run.begin, run.end, [&](std::size_t i, const RadianceSample& sample) {
-    if (leafOf[i] == kDropped) return;
-    splats[run.slotOfLeaf[leafOf[i]]++] = {toSquarePoint(sphereToSquare(settings.directionMap, sample.direction)),
-                                           sample.radiance / sample.pdf};
+void count(Field::State& state, const SampleSequence& samples) {
+  samples.forEach(0, samples.size(), [&](std::size_t, const RadianceSample& s) {
+    if (!isUsable(s))
+      ++state.droppedSamples;
+    else
+      ++state.samples, state.outsideSamples += !state.tree.contains(s.position);
   });
 }
 
@@ -90,29 +115,9 @@ void scatter(const FieldSettings& settings, const SampleSequence& samples, Run& 
 
 void accumulate(Field::State& state, std::span<const SampleBuffer> buffers) {
   const SampleSequence samples(buffers);
-  std::vector<Run> runs = cutRuns(samples.size());
-  std::vector<std::uint32_t> leafOf(samples.size());
-  tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t r) { assignLeaves(state, samples, runs[r], leafOf); });
-
-  const std::vector<std::size_t> begin = layOut(runs, state.leaves.size());
-  std::vector<Splat> splats(begin.back());
-  tbb::parallel_for(std::size_t(0), runs.size(),
-                    [&](std::size_t r) { scatter(state.settings, samples, runs[r], leafOf, splats); });
-
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, state.leaves.size(), 16), [&](const auto& range) {
-    for (std::size_t leaf = range.begin(); leaf != range.end(); ++leaf) {
-      SpatialLeaf& target = state.leaves[leaf];
-      target.sampleCount += begin[leaf + 1] - begin[leaf];
-      for (std::size_t i = begin[leaf]; i < begin[leaf + 1]; ++i)
-        if (splats[i].value > 0) target.building.splat(splats[i].point, splats[i].value);
-    }
-  });
-
-  state.samples += begin.back();
-  for (const Run& run : runs) {
-    state.droppedSamples += run.dropped;
-    state.outsideSamples += run.outside;
-  }
+  learnRadiance(state, samples);
+  if (state.settings.fractionMode != FractionMode::Fixed && state.hasGuide) learnFraction(state, samples);
+  count(state, samples);
 }
 
 }  // namespace guiding

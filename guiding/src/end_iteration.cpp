@@ -14,20 +14,27 @@ struct FrozenLeaf {
   DirectionalQuadtree next;
 };
 
+void learnFraction(SpatialLeaf& leaf, FractionMode mode) {
+  if (mode == FractionMode::Adam && leaf.adam.steps > 0) leaf.fraction = leaf.adam.fraction();
+  if (mode == FractionMode::Fit) leaf.fraction = leaf.slopes.fraction(leaf.fraction);
+  leaf.slopes = {};
+}
+
 /// The density of a leaf and the quadtree it learns into next. A leaf that learned nothing keeps its topology and
 /// offers no guide.
 FrozenLeaf freezeLeaf(SpatialLeaf& leaf, const FieldSettings& settings) {
   const double total = leaf.building.build();
+  learnFraction(leaf, settings.fractionMode);
   FrozenLeaf frozen;
   if (!(total > 0) || !std::isfinite(total)) {
     frozen.next = leaf.building;
     for (auto& node : frozen.next.nodes()) node.sum = {};
     return frozen;
   }
-  const float assumed = settings.bsdfSamplingFraction * settings.compensation.strength;
   // A product is compensated where it is formed, at the shading point.
   const CompensationForm form = settings.product ? CompensationForm::None : settings.compensation.form;
-  if (settings.bsdfSamplingFraction < 1) frozen.tree = freeze(leaf.building, form, assumed);
+  if (leaf.fraction < 1) frozen.tree = freeze(leaf.building, form, leaf.fraction * settings.compensation.strength);
+  frozen.tree.tree.bsdfSamplingFraction = leaf.fraction;
   frozen.next = leaf.building.refined(total, settings.dTreeThreshold, settings.maxDTreeDepth);
   return frozen;
 }
@@ -45,7 +52,6 @@ void publish(Field::State& state, std::vector<FrozenLeaf>& frozen) {
     state.densityOfLeaf[leaf] = from.guided ? std::uint32_t(trees.size()) : GuidingDensity::kNoGuide;
     if (!from.guided) continue;
     from.tree.firstNode = std::uint32_t(nodes.size());
-    from.tree.bsdfSamplingFraction = state.settings.bsdfSamplingFraction;
     trees.push_back(from.tree);
     nodes.insert(nodes.end(), from.nodes.begin(), from.nodes.end());
     from.nodes = {};
@@ -78,7 +84,7 @@ void splitLeaves(Field::State& state, double spp) {
   state.leaves.resize(origin.size());
   state.densityOfLeaf.resize(origin.size());
   for (std::size_t leaf = before; leaf < origin.size(); ++leaf) {
-    state.leaves[leaf].building = state.leaves[origin[leaf]].building;
+    state.leaves[leaf] = state.leaves[origin[leaf]];
     state.densityOfLeaf[leaf] = state.densityOfLeaf[origin[leaf]];
   }
 }

@@ -6,6 +6,7 @@
 #include "directional_quadtree.h"
 #include "guiding/field.h"
 #include "guiding_density.h"
+#include "sampling_fraction.h"
 #include "spatial_tree.h"
 
 namespace guiding {
@@ -14,11 +15,16 @@ namespace guiding {
 struct SpatialLeaf {
   DirectionalQuadtree building;   ///< learns during this iteration
   std::uint64_t sampleCount = 0;  ///< of this iteration
+  float fraction = 0.5f;          ///< bsdfSamplingFraction of the frozen density
+  AdamFraction adam;              ///< with FractionMode::Adam
+  FractionSlopes slopes;          ///< with FractionMode::Fit; of this iteration
 };
 
 struct Field::State {
   State(const Imath::Box3f& box, const FieldSettings& s)
-      : settings(s), bounds(box), tree(box), leaves(1), density(s.directionMap) {}
+      : settings(s), bounds(box), tree(box), leaves(1), density(s.directionMap) {
+    leaves[0].fraction = s.bsdfSamplingFraction;
+  }
 
   FieldSettings settings;
   Imath::Box3f bounds;  ///< as the host gave them

@@ -25,27 +25,39 @@ void putSettings(ByteWriter& out, const FieldSettings& s) {
   out.put(std::uint64_t(s.maxMemoryBytes));
   out.put(s.dTreeThreshold);
   out.put(std::int32_t(s.maxDTreeDepth));
+  out.put(std::uint32_t(s.spatialFilter));
+  out.put(std::uint32_t(s.directionalFilter));
   out.put(s.bsdfSamplingFraction);
+  out.put(std::uint32_t(s.fractionMode));
+  out.put(std::uint32_t(s.fractionLoss));
   out.put(std::uint32_t(s.compensation.form));
   out.put(s.compensation.strength);
   out.put(std::uint8_t(s.product));
 }
 
+/// An enumerator below or equal to `last`.
+template <class Enum>
+bool getEnum(ByteReader& in, Enum& value, Enum last) {
+  const auto number = in.get<std::uint32_t>();
+  value = Enum(number);
+  return number <= std::uint32_t(last);
+}
+
 bool getSettings(ByteReader& in, FieldSettings& s) {
-  const auto map = in.get<std::uint32_t>();
+  bool ok = getEnum(in, s.directionMap, DirectionMap::Octahedral);
   s.sTreeThreshold = in.get<double>();
   s.maxMemoryBytes = std::size_t(in.get<std::uint64_t>());
   s.dTreeThreshold = in.get<float>();
   s.maxDTreeDepth = in.get<std::int32_t>();
+  ok &= getEnum(in, s.spatialFilter, SpatialFilter::StochasticBox);
+  ok &= getEnum(in, s.directionalFilter, DirectionalFilter::Box);
   s.bsdfSamplingFraction = in.get<float>();
-  const auto form = in.get<std::uint32_t>();
+  ok &= getEnum(in, s.fractionMode, FractionMode::Fit);
+  ok &= getEnum(in, s.fractionLoss, FractionLoss::Variance);
+  ok &= getEnum(in, s.compensation.form, CompensationForm::ClipRenormalise);
   s.compensation.strength = in.get<float>();
   s.product = in.get<std::uint8_t>() != 0;
-  if (map > std::uint32_t(DirectionMap::Octahedral) || form > std::uint32_t(CompensationForm::ClipRenormalise))
-    return false;
-  s.directionMap = DirectionMap(map);
-  s.compensation.form = CompensationForm(form);
-  return s.validate().ok();
+  return ok && s.validate().ok();
 }
 
 void putLinks(ByteWriter& out, const QuadtreeLinks& links) {
@@ -60,8 +72,28 @@ QuadtreeLinks getLinks(ByteReader& in) {
   return links;
 }
 
+void putFraction(ByteWriter& out, const SpatialLeaf& leaf) {
+  for (const double x : {leaf.adam.logit, leaf.adam.firstMoment, leaf.adam.secondMoment, leaf.adam.batchGradient})
+    out.put(x);
+  out.put(leaf.adam.batchCount);
+  out.put(leaf.adam.steps);
+  for (const double slope : leaf.slopes.slope) out.put(slope);
+  out.put(leaf.slopes.count);
+}
+
+void getFraction(ByteReader& in, SpatialLeaf& leaf) {
+  for (double* x : {&leaf.adam.logit, &leaf.adam.firstMoment, &leaf.adam.secondMoment, &leaf.adam.batchGradient})
+    *x = in.get<double>();
+  leaf.adam.batchCount = in.get<std::uint32_t>();
+  leaf.adam.steps = in.get<std::uint32_t>();
+  for (double& slope : leaf.slopes.slope) slope = in.get<double>();
+  leaf.slopes.count = in.get<std::uint64_t>();
+}
+
 void putLeaf(ByteWriter& out, const SpatialLeaf& leaf) {
   out.put(leaf.sampleCount);
+  out.put(leaf.fraction);
+  putFraction(out, leaf);
   out.put(std::uint64_t(leaf.building.nodes().size()));
   for (const auto& node : leaf.building.nodes()) {
     for (const double sum : node.sum) out.put(sum);
@@ -69,10 +101,12 @@ void putLeaf(ByteWriter& out, const SpatialLeaf& leaf) {
   }
 }
 
-constexpr std::size_t kLeafBytes = 16, kBuildingNodeBytes = 37;
+constexpr std::size_t kLeafBytes = 4 + 8 + 4 + 40 + 72 + 8, kBuildingNodeBytes = 37;
 
 void getLeaf(ByteReader& in, SpatialLeaf& leaf) {
   leaf.sampleCount = in.get<std::uint64_t>();
+  leaf.fraction = in.get<float>();
+  getFraction(in, leaf);
   auto& nodes = leaf.building.nodes();
   nodes.resize(in.getCount(kBuildingNodeBytes));
   for (auto& node : nodes) {

@@ -8,6 +8,24 @@ Error outOfRange(const char* text) {
 }
 }  // namespace
 
+FieldSettings FieldSettings::production2019() {
+  FieldSettings s;
+  s.sTreeThreshold = 4000;
+  s.spatialFilter = SpatialFilter::StochasticBox;
+  s.directionalFilter = DirectionalFilter::Box;
+  s.fractionMode = FractionMode::Adam;
+  return s;
+}
+
+FieldSettings FieldSettings::recommended() {
+  FieldSettings s = production2019();
+  s.directionMap = DirectionMap::Octahedral;
+  s.fractionMode = FractionMode::Fit;
+  s.product = true;
+  s.compensation = {CompensationForm::WaterFilling, 0.5f};
+  return s;
+}
+
 Status FieldSettings::validate() const {
   // Negated comparisons, so that NaN fails too.
   if (!(sTreeThreshold >= 1)) return outOfRange("sTreeThreshold must be at least 1");

@@ -12,6 +12,18 @@ SpatialTree::SpatialTree(const Imath::Box3f& bounds) : m_bounds(bounds) {
   m_scale = float(1 << kBitsPerAxis) / extent;
 }
 
+Imath::V3f SpatialTree::leafSizeAt(const Imath::V3f& position) const noexcept {
+  std::uint64_t code = codeOf(position);
+  std::uint32_t node = 0;
+  Imath::V3f size = m_bounds.size();
+  for (int axis = 0; !(m_nodes[node] & kLeafBit); axis = axis == 2 ? 0 : axis + 1) {
+    size[axis] *= 0.5f;
+    node = m_nodes[node] + std::uint32_t(code >> 63);
+    code <<= 1;
+  }
+  return size;
+}
+
 int SpatialTree::maxDepth() const noexcept {
   // Children stand behind their parent, so one forward sweep knows each node's depth.
   std::vector<int> depth(m_nodes.size(), 0);

@@ -30,6 +30,9 @@ class SpatialTree {
     return m_nodes[node] & ~kLeafBit;
   }
 
+  /// Edge lengths of the leaf that contains the point.
+  Imath::V3f leafSizeAt(const Imath::V3f& position) const noexcept;
+
   bool contains(const Imath::V3f& position) const noexcept { return m_bounds.intersects(position); }
   const Imath::Box3f& bounds() const noexcept { return m_bounds; }  ///< the cube
 

@@ -23,6 +23,8 @@ struct ScheduleSettings {
   int combinedIterations = 4;  ///< how many of the last iterations InverseVariance combines; >= 1
 
   static ScheduleSettings mueller2017() { return {}; }
+  static ScheduleSettings production2019() { return {1, SampleCombination::InverseVariance, 4}; }
+  static ScheduleSettings recommended() { return production2019(); }
   Status validate() const;
 };
 

@@ -26,6 +26,32 @@ struct CompensationSettings {
   float strength = 1.0f;
 };
 
+/// Where in space a sample is learned.
+enum class SpatialFilter {
+  Nearest,        ///< in the leaf that contains it
+  StochasticBox,  ///< in the leaf that contains a random point of a box around it, as large as its own leaf [Müller
+                  ///< 2019]
+};
+
+/// Where on the sphere a sample is learned.
+enum class DirectionalFilter {
+  Nearest,  ///< in the cell that contains its direction
+  Box,      ///< spread over a square around it, as large as that cell; wraps around the sphere [Müller 2019]
+};
+
+/// How the bsdfSamplingFraction of a spatial leaf comes about.
+enum class FractionMode {
+  Fixed,  ///< FieldSettings::bsdfSamplingFraction everywhere
+  Adam,   ///< stochastic gradient descent over the samples in their order [Müller 2019]
+  Fit,    ///< the minimum of the loss over all samples of the iteration, which is convex in the fraction
+};
+
+/// What a learned bsdfSamplingFraction minimises.
+enum class FractionLoss {
+  KullbackLeibler,
+  Variance,
+};
+
 /// Settings of the SD-tree and of the density that is sampled from it.
 struct FieldSettings {
   DirectionMap directionMap = DirectionMap::Cylinder;
@@ -41,8 +67,14 @@ struct FieldSettings {
   /// Depth cap of the quadtrees. Range: [1, 20].
   int maxDTreeDepth = 20;
 
-  /// Probability of sampling the BSDF rather than the guide. Range: (0, 1].
+  SpatialFilter spatialFilter = SpatialFilter::Nearest;
+  DirectionalFilter directionalFilter = DirectionalFilter::Nearest;
+
+  /// Probability of sampling the BSDF rather than the guide; where it is learned, what learning starts from. Range: (0,
+  /// 1].
   float bsdfSamplingFraction = 0.5f;
+  FractionMode fractionMode = FractionMode::Fixed;
+  FractionLoss fractionLoss = FractionLoss::KullbackLeibler;
 
   CompensationSettings compensation;
 
@@ -52,6 +84,12 @@ struct FieldSettings {
 
   /// The algorithm of the paper [Müller et al. 2017]: no compensation, fixed fraction one half.
   static FieldSettings mueller2017() { return {}; }
+
+  /// The improvements of [Müller 2019], with the values its author recommends.
+  static FieldSettings production2019();
+
+  /// What our measurements recommend (bench/README.md).
+  static FieldSettings recommended();
 
   /// Ok, or which field is out of range.
   Status validate() const;

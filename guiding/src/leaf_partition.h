@@ -1,0 +1,71 @@
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "sample_sequence.h"
+
+namespace guiding {
+
+/// Items sorted by spatial leaf, those of one leaf in the order of their samples.
+template <class Item>
+struct LeafPartition {
+  std::vector<Item> items;
+  std::vector<std::size_t> begin;  ///< of each leaf's items; then their number
+
+  std::span<const Item> ofLeaf(std::size_t leaf) const noexcept {
+    return {items.data() + begin[leaf], begin[leaf + 1] - begin[leaf]};
+  }
+};
+
+inline constexpr std::uint32_t kNoLeaf = ~0u;
+
+/// Sorts what `itemOf(sample)` makes of each sample by `leafOf(sample)`, leaving out those of kNoLeaf.
+///
+/// A counting sort over runs of consecutive samples. Runs are cut by the number of samples alone and the sort is
+/// stable, so the outcome does not depend on the number of threads.
+template <class Item, class LeafOf, class ItemOf>
+LeafPartition<Item> partitionByLeaf(const SampleSequence& samples, std::size_t leafCount, LeafOf&& leafOf,
+                                    ItemOf&& itemOf) {
+  constexpr std::size_t kShortestRun = 1 << 14, kMostRuns = 32;
+  const std::size_t length = std::max(kShortestRun, (samples.size() + kMostRuns - 1) / kMostRuns);
+  const std::size_t runs = (samples.size() + length - 1) / length;
+  const auto forEachOfRun = [&](std::size_t run, auto&& visit) {
+    samples.forEach(run * length, std::min((run + 1) * length, samples.size()), visit);
+  };
+
+  // Per run and leaf: first how many items, then where the next one goes.
+  std::vector<std::vector<std::size_t>> slot(runs, std::vector<std::size_t>(leafCount, 0));
+  std::vector<std::uint32_t> leaf(samples.size());
+  tbb::parallel_for(std::size_t(0), runs, [&](std::size_t run) {
+    forEachOfRun(run, [&](std::size_t i, const RadianceSample& sample) {
+      leaf[i] = leafOf(sample);
+      if (leaf[i] != kNoLeaf) ++slot[run][leaf[i]];
+    });
+  });
+
+  LeafPartition<Item> partition;
+  partition.begin.resize(leafCount + 1);
+  std::size_t position = 0;
+  for (std::size_t l = 0; l < leafCount; ++l) {
+    partition.begin[l] = position;
+    for (std::vector<std::size_t>& s : slot) {
+      const std::size_t count = s[l];
+      s[l] = position;
+      position += count;
+    }
+  }
+  partition.begin[leafCount] = position;
+
+  partition.items.resize(position);
+  tbb::parallel_for(std::size_t(0), runs, [&](std::size_t run) {
+    forEachOfRun(run, [&](std::size_t i, const RadianceSample& sample) {
+      if (leaf[i] != kNoLeaf) partition.items[slot[run][leaf[i]]++] = itemOf(sample);
+    });
+  });
+  return partition;
+}
+
+}  // namespace guiding
