@@ -8,14 +8,16 @@ namespace {
 
 struct MakeMaterial {
   const Parameters& parameters;
+  RoughTransmittanceCache& cache;
 
-  std::unique_ptr<Material> operator()(const DiffuseMaterial& m) const { return makeDiffuse(m, parameters); }
+  using Result = std::unique_ptr<Material>;
+  Result operator()(const DiffuseMaterial& m) const { return makeDiffuse(m, parameters); }
+  Result operator()(const ConductorMaterial& m) const { return makeConductor(m, parameters); }
+  Result operator()(const DielectricMaterial& m) const { return makeDielectric(m, parameters); }
+  Result operator()(const ThinDielectricMaterial& m) const { return makeThinDielectric(m, parameters); }
+  Result operator()(const PlasticMaterial& m) const { return makePlastic(m, parameters, cache); }
   /// Made later, when its sides exist.
-  std::unique_ptr<Material> operator()(const TwoSidedMaterial&) const { return nullptr; }
-  template <class Kind>
-  std::unique_ptr<Material> operator()(const Kind&) const {
-    parameters.fail("only diffuse and two-sided materials are built yet");
-  }
+  Result operator()(const TwoSidedMaterial&) const { return nullptr; }
 };
 
 /// The one-sided material that a side of a two-sided one names. A two-sided material as a side shows its own front.
@@ -35,16 +37,18 @@ int resolveSide(const SceneDescription& description, int side, const Parameters&
 std::vector<std::unique_ptr<Material>> createMaterials(const SceneDescription& description) {
   std::vector<std::unique_ptr<Material>> materials;
   materials.reserve(description.materials.size());
+  RoughTransmittanceCache cache;
   for (const MaterialDescription& m : description.materials)
-    materials.push_back(std::visit(MakeMaterial{Parameters(m.source)}, m.kind));
+    materials.push_back(std::visit(MakeMaterial{Parameters(m.source), cache}, m.kind));
 
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const MaterialDescription& m = description.materials[i];
     const auto* twoSided = std::get_if<TwoSidedMaterial>(&m.kind);
     if (!twoSided) continue;
     const Parameters parameters(m.source);
-    materials[i] = makeTwoSided(*materials[resolveSide(description, twoSided->front, parameters)],
-                                *materials[resolveSide(description, twoSided->back, parameters)], parameters);
+    const int front = resolveSide(description, twoSided->front, parameters);
+    const int back = resolveSide(description, twoSided->back, parameters);
+    materials[i] = makeTwoSided(*materials[front], *materials[back], parameters);
   }
   return materials;
 }

@@ -6,33 +6,58 @@
 
 namespace pt {
 
+namespace {
+
+// Comparisons that NaN fails.
+bool isUnit(float x) {
+  return x >= 0 && x <= 1;
+}
+bool isNonNegative(float x) {
+  return x >= 0 && std::isfinite(x);
+}
+
+std::string show(const Spectrum& v) {
+  return fmt::format("({}, {}, {})", v.x, v.y, v.z);
+}
+
+}  // namespace
+
 Spectrum Parameters::reflectance(const SpectrumParameter& parameter, std::string_view name) const {
   requireConstant(parameter.texture, name);
   const Spectrum& v = parameter.value;
-  for (const float channel : {v.x, v.y, v.z}) {
-    // Negated, so that NaN fails too.
-    if (!(channel >= 0 && channel <= 1))
-      fail(fmt::format("{} ({}, {}, {}) must lie in [0, 1]: a surface cannot reflect more light than it receives", name,
-                       v.x, v.y, v.z));
-  }
+  if (!(isUnit(v.x) && isUnit(v.y) && isUnit(v.z)))
+    fail(
+        fmt::format("{} {} must lie in [0, 1]: a surface cannot give back more light than it receives", name, show(v)));
   return v;
 }
 
-float Parameters::alpha(const Roughness& roughness) const {
-  requireConstant(roughness.alpha.texture, "alpha");
-  const float alpha = roughness.alpha.value;
-  if (!(alpha > 0 && std::isfinite(alpha)))
-    fail(fmt::format("alpha {} must be positive and finite; use the smooth variant of the material for no roughness",
-                     alpha));
-  return alpha;
+BoundaryTints Parameters::tints(const SpectrumParameter& specularReflectance,
+                                const SpectrumParameter& specularTransmittance) const {
+  return {reflectance(specularReflectance, "specularReflectance"),
+          reflectance(specularTransmittance, "specularTransmittance")};
+}
+
+std::optional<Microfacets> Parameters::microfacets(const std::optional<Roughness>& roughness) const {
+  if (!roughness) return std::nullopt;
+  requireConstant(roughness->alpha.texture, "alpha");
+  const float alpha = roughness->alpha.value;
+  if (!isNonNegative(alpha)) fail(fmt::format("alpha {} must be finite and not negative", alpha));
+  if (alpha < kSmoothAlpha) return std::nullopt;
+  return Microfacets(roughness->distribution, alpha, roughness->sampleVisible);
 }
 
 float Parameters::relativeIor(float intIor, float extIor) const {
   const float eta = intIor / extIor;
-  if (!(intIor > 0 && extIor > 0 && std::isfinite(eta)))
+  if (!(intIor > 0 && extIor > 0 && eta > 0 && std::isfinite(eta)))
     fail(fmt::format("indices of refraction {} (interior) and {} (exterior) must be positive and finite", intIor,
                      extIor));
   return eta;
+}
+
+Spectrum Parameters::nonNegative(const Spectrum& v, std::string_view name) const {
+  if (!(isNonNegative(v.x) && isNonNegative(v.y) && isNonNegative(v.z)))
+    fail(fmt::format("{} {} must be finite and not negative", name, show(v)));
+  return v;
 }
 
 void Parameters::fail(std::string_view problem) const {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 
+#include "materials/microfacets.h"
+#include "materials/scattering.h"
 #include "scene/scene_description.h"
 
 namespace pt {
@@ -14,11 +17,17 @@ class Parameters {
   /// A reflectance or transmittance: each channel in [0, 1].
   Spectrum reflectance(const SpectrumParameter& parameter, std::string_view name) const;
 
-  /// Microfacet roughness, > 0.
-  float alpha(const Roughness& roughness) const;
+  BoundaryTints tints(const SpectrumParameter& specularReflectance,
+                      const SpectrumParameter& specularTransmittance) const;
+
+  /// No value for a smooth surface: without roughness, or with less than kSmoothAlpha.
+  std::optional<Microfacets> microfacets(const std::optional<Roughness>& roughness) const;
 
   /// Interior over exterior index of refraction, both > 0.
   float relativeIor(float intIor, float extIor) const;
+
+  /// Each channel >= 0 and finite.
+  Spectrum nonNegative(const Spectrum& value, std::string_view name) const;
 
   /// Throws InputError with the material's place in the input.
   [[noreturn]] void fail(std::string_view problem) const;

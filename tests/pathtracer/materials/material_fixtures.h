@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "materials/material.h"
+#include "statistics/chi_square.h"
+
+/// Materials by description, for tests of BSDFs.
+namespace test {
+
+/// One built material, with those it refers to.
+class BuiltMaterial {
+ public:
+  explicit BuiltMaterial(const decltype(pt::MaterialDescription::kind)& kind) : BuiltMaterial({}, kind) {}
+  BuiltMaterial(std::vector<pt::MaterialDescription> others, const decltype(pt::MaterialDescription::kind)& kind) {
+    pt::SceneDescription description;
+    description.materials = std::move(others);
+    description.materials.push_back({"tested", kind, "test#/materials/0"});
+    m_materials = pt::createMaterials(description);
+  }
+
+  const pt::Material& operator*() const { return *m_materials.back(); }
+  const pt::Material* operator->() const { return m_materials.back().get(); }
+
+ private:
+  std::vector<std::unique_ptr<pt::Material>> m_materials;
+};
+
+struct NamedMaterial {
+  std::string name;
+  decltype(pt::MaterialDescription::kind) kind;
+  bool reflectsOnly = true;
+};
+
+inline pt::Roughness rough(float alpha, pt::MicrofacetDistribution distribution, bool sampleVisible = true) {
+  return {alpha, distribution, sampleVisible};
+}
+
+/// Every kind that has a smooth lobe, over roughnesses and settings.
+inline std::vector<NamedMaterial> smoothLobeMaterials() {
+  using enum pt::MicrofacetDistribution;
+  const pt::Spectrum eta(0.2f, 0.92f, 1.1f), k(3.9f, 2.45f, 2.14f);
+  std::vector<NamedMaterial> all;
+  all.push_back({"diffuse", pt::DiffuseMaterial{pt::Spectrum(0.2f, 0.5f, 0.9f)}});
+  all.push_back({"plastic", pt::PlasticMaterial{1.5f, 1.0f, pt::Spectrum(0.5f, 0.2f, 0.7f), 1.0f, false, {}}});
+  for (const auto distribution : {Ggx, Beckmann}) {
+    const std::string d = distribution == Ggx ? "GGX" : "Beckmann";
+    for (const float alpha : {0.05f, 0.2f, 0.7f}) {
+      for (const bool visible : {true, false}) {
+        const std::string suffix = " " + d + " " + std::to_string(alpha) + (visible ? " visible" : " all");
+        const pt::Roughness r = rough(alpha, distribution, visible);
+        all.push_back({"conductor" + suffix, pt::ConductorMaterial{eta, k, 1.0f, r}});
+        all.push_back({"dielectric" + suffix, pt::DielectricMaterial{1.5f, 1.0f, 1.0f, 1.0f, r}, false});
+        all.push_back({"plastic" + suffix, pt::PlasticMaterial{1.5f, 1.0f, 0.5f, 1.0f, alpha > 0.1f, r}});
+      }
+    }
+  }
+  all.push_back({"tinted dielectric", pt::DielectricMaterial{1.3f, 1.0f, 0.3f, 0.9f, rough(0.3f, Ggx)}, false});
+  all.push_back({"dense exterior", pt::DielectricMaterial{1.0f, 1.4f, 1.0f, 1.0f, rough(0.3f, Beckmann)}, false});
+  return all;
+}
+
+/// Unit direction at `degrees` from +z, in an oblique azimuth.
+inline pt::Vec3 directionAt(float degrees, float azimuthDegrees = 25) {
+  const float theta = degrees * pt::kPi / 180, phi = azimuthDegrees * pt::kPi / 180;
+  return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+}
+
+/// Chi-square test of the smooth lobes of a material. Delta and failed draws count as failed samples.
+inline ChiSquareResult chiSquareOfMaterial(const pt::Material& material, const pt::Vec3& wo,
+                                           const ChiSquareSettings& settings) {
+  const pt::SurfaceInteraction si{};
+  const auto sample = [&](Random& random) -> std::optional<Imath::V3f> {
+    const float uLobe = random.next1D();
+    const pt::BsdfSample s = material.sample(si, wo, uLobe, random.next2D());
+    if (s.isDelta || s.pdf == 0) return std::nullopt;
+    return s.wi;
+  };
+  return chiSquareOnSphere(
+      sample, [&](const Imath::V3f& wi) { return material.evaluate(si, wo, wi).pdf; }, settings);
+}
+
+}  // namespace test
