@@ -6,10 +6,14 @@
 namespace pt {
 
 std::span<const GuidingPreset> guidingPresets() {
-  static const std::array<GuidingPreset, 2> kPresets{{
+  static const std::array<GuidingPreset, 4> kPresets{{
       {"none", "plain path tracing", std::nullopt},
       {"mueller2017", "the SD-tree as published in 2017",
        GuidingSettings{guiding::FieldSettings::mueller2017(), guiding::ScheduleSettings::mueller2017()}},
+      {"production2019", "the same with the improvements of 2019: filters, learned fraction, combined iterations",
+       GuidingSettings{guiding::FieldSettings::production2019(), guiding::ScheduleSettings::production2019()}},
+      {"recommended", "what our measurements recommend",
+       GuidingSettings{guiding::FieldSettings::recommended(), guiding::ScheduleSettings::recommended()}},
   }};
   return kPresets;
 }

@@ -26,6 +26,39 @@ struct Labels<guiding::DirectionMap> {
 };
 
 template <>
+struct Labels<guiding::SpatialFilter> {
+  static constexpr std::array<std::pair<guiding::SpatialFilter, std::string_view>, 2> kTable{{
+      {guiding::SpatialFilter::Nearest, "nearest"},
+      {guiding::SpatialFilter::StochasticBox, "stochasticBox"},
+  }};
+};
+
+template <>
+struct Labels<guiding::DirectionalFilter> {
+  static constexpr std::array<std::pair<guiding::DirectionalFilter, std::string_view>, 2> kTable{{
+      {guiding::DirectionalFilter::Nearest, "nearest"},
+      {guiding::DirectionalFilter::Box, "box"},
+  }};
+};
+
+template <>
+struct Labels<guiding::FractionMode> {
+  static constexpr std::array<std::pair<guiding::FractionMode, std::string_view>, 3> kTable{{
+      {guiding::FractionMode::Fixed, "fixed"},
+      {guiding::FractionMode::Adam, "adam"},
+      {guiding::FractionMode::Fit, "fit"},
+  }};
+};
+
+template <>
+struct Labels<guiding::FractionLoss> {
+  static constexpr std::array<std::pair<guiding::FractionLoss, std::string_view>, 2> kTable{{
+      {guiding::FractionLoss::KullbackLeibler, "kl"},
+      {guiding::FractionLoss::Variance, "variance"},
+  }};
+};
+
+template <>
 struct Labels<guiding::CompensationForm> {
   static constexpr std::array<std::pair<guiding::CompensationForm, std::string_view>, 3> kTable{{
       {guiding::CompensationForm::None, "none"},

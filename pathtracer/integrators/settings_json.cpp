@@ -36,8 +36,13 @@ void visitMembers(Is<guiding::FieldSettings> auto& s, auto&& visitor) {
   visitor("maxMemoryBytes", s.maxMemoryBytes);
   visitor("dTreeThreshold", s.dTreeThreshold);
   visitor("maxDTreeDepth", s.maxDTreeDepth);
+  visitor("spatialFilter", s.spatialFilter);
+  visitor("directionalFilter", s.directionalFilter);
   visitor("bsdfSamplingFraction", s.bsdfSamplingFraction);
+  visitor("fractionMode", s.fractionMode);
+  visitor("fractionLoss", s.fractionLoss);
   visitor("compensation", s.compensation);
+  visitor("product", s.product);
 }
 
 void visitMembers(Is<guiding::ScheduleSettings> auto& s, auto&& visitor) {
@@ -97,6 +102,9 @@ void read(const Place& place, T& value) {
     value = *found;
   } else if constexpr (std::is_class_v<T>) {
     readMembers(place, value);
+  } else if constexpr (std::is_same_v<T, bool>) {
+    if (!place.json.is_boolean()) place.fail(fmt::format("expected true or false, found {}", place.json.dump()));
+    value = place.json.template get<bool>();
   } else if constexpr (std::is_floating_point_v<T>) {
     if (!place.json.is_number()) place.fail(fmt::format("expected a number, found {}", place.json.type_name()));
     value = place.json.template get<T>();
