@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <functional>
+#include <algorithm>
+#include <numeric>
+#include <vector>
 
 #include "core/error.h"
 
@@ -36,10 +38,16 @@ void requireComparable(const Image& image, const Image& reference) {
     throw InputError("the reference picture has pixels that are not finite");
 }
 
-double sum(const std::vector<double>& values, std::size_t count) {
-  double total = 0;
-  for (std::size_t i = 0; i < count; ++i) total += values[i];
-  return total;
+ImageError::Measure measure(const std::vector<PixelError>& errors, double PixelError::*member) {
+  std::vector<double> values(errors.size());
+  std::transform(errors.begin(), errors.end(), values.begin(), [=](const PixelError& e) { return e.*member / 3; });
+  const auto mean = [&](std::size_t count) {
+    return std::accumulate(values.begin(), values.begin() + std::ptrdiff_t(count), 0.0) / double(count);
+  };
+  const std::size_t count = values.size(), kept = count - count / 1000;
+  const double all = mean(count);
+  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(kept - 1), values.end());
+  return {all, mean(kept)};
 }
 
 }  // namespace
@@ -47,32 +55,23 @@ double sum(const std::vector<double>& values, std::size_t count) {
 ImageError compareImages(const Image& image, const Image& reference) {
   requireComparable(image, reference);
   ImageError error;
-  std::vector<double> relative2;
-  relative2.reserve(image.pixels.size());
+  std::vector<PixelError> errors;
+  errors.reserve(image.pixels.size());
   double differences = 0, references = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     if (!isFinite(image.pixels[i])) {
       ++error.nonFinitePixels;
       continue;
     }
-    const PixelError pixel(image.pixels[i], reference.pixels[i]);
-    relative2.push_back(pixel.relative2);
-    error.mse += pixel.squared;
-    error.mape += pixel.relative;
-    error.smape += pixel.symmetric;
-    differences += pixel.difference;
-    references += pixel.reference;
+    errors.emplace_back(image.pixels[i], reference.pixels[i]);
+    differences += errors.back().difference;
+    references += errors.back().reference;
   }
-  if (relative2.empty()) throw InputError("no pixel can be compared: the picture is empty or not finite");
-
-  const std::size_t count = relative2.size(), kept = count - count / 1000;
-  const double values = 3.0 * double(count);
-  error.relMse = sum(relative2, count) / values;
-  std::nth_element(relative2.begin(), relative2.begin() + std::ptrdiff_t(kept - 1), relative2.end());
-  error.relMseTrimmed = sum(relative2, kept) / (3.0 * double(kept));
-  error.mse /= values;
-  error.mape /= values;
-  error.smape /= values;
+  if (errors.empty()) throw InputError("no pixel can be compared: the picture is empty or not finite");
+  error.relMse = measure(errors, &PixelError::relative2);
+  error.mse = measure(errors, &PixelError::squared);
+  error.mape = measure(errors, &PixelError::relative);
+  error.smape = measure(errors, &PixelError::symmetric);
   error.bias = references != 0 ? differences / references : 0;
   return error;
 }

@@ -8,11 +8,14 @@ namespace pt {
 
 /// How far a picture x is from its reference r; d = x - r, means over pixels and channels.
 struct ImageError {
-  double relMse = 0;                  ///< mean of d^2 / (r^2 + 0.01)
-  double relMseTrimmed = 0;           ///< the same without the worst 0.1% of the pixels (rounded down)
-  double mse = 0;                     ///< mean of d^2
-  double mape = 0;                    ///< mean of |d| / (r + 0.01)
-  double smape = 0;                   ///< mean of 2 |d| / (|x| + |r| + 0.01)
+  /// Over all pixels, and without the 0.1% (rounded down) that are worst by this very measure.
+  struct Measure {
+    double all = 0, trimmed = 0;
+  };
+  Measure relMse;                     ///< d^2 / (r^2 + 0.01)
+  Measure mse;                        ///< d^2
+  Measure mape;                       ///< |d| / (|r| + 0.01)
+  Measure smape;                      ///< 2 |d| / (|x| + |r| + 0.01)
   double bias = 0;                    ///< mean of d over mean of r; signed, tends to 0 for an unbiased estimator
   std::uint64_t nonFinitePixels = 0;  ///< of the picture; left out of everything above
 };

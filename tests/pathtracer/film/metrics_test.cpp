@@ -12,11 +12,11 @@ TEST_CASE("The metrics are their formulas") {
   reference.at(1, 0) = Spectrum(1);
   image.at(1, 0) = Spectrum(1);
   const ImageError error = compareImages(image, reference);
-  CHECK(error.mse == Approx((0.25 + 0.01) / 6).epsilon(1e-6));
-  CHECK(error.relMse == Approx((0.25 / 1.01 + 0.01 / 0.01) / 6).epsilon(1e-6));
-  CHECK(error.relMseTrimmed == error.relMse);  // 0.1% of two pixels is none
-  CHECK(error.mape == Approx((0.5 / 1.01 + 0.1 / 0.01) / 6).epsilon(1e-6));
-  CHECK(error.smape == Approx((1.0 / 2.51 + 0.2 / 0.11) / 6).epsilon(1e-6));
+  CHECK(error.mse.all == Approx((0.25 + 0.01) / 6).epsilon(1e-6));
+  CHECK(error.relMse.all == Approx((0.25 / 1.01 + 0.01 / 0.01) / 6).epsilon(1e-6));
+  CHECK(error.relMse.trimmed == error.relMse.all);  // 0.1% of two pixels is none
+  CHECK(error.mape.all == Approx((0.5 / 1.01 + 0.1 / 0.01) / 6).epsilon(1e-6));
+  CHECK(error.smape.all == Approx((1.0 / 2.51 + 0.2 / 0.11) / 6).epsilon(1e-6));
   CHECK(error.bias == Approx(0.6 / 6).epsilon(1e-6));
   const Image picture = errorPicture(image, reference);
   CHECK(picture.at(0, 0).x == Approx((0.25 / 1.01 + 1) / 3).epsilon(1e-6));
@@ -29,10 +29,13 @@ TEST_CASE("Trimming leaves out the worst pixels and nothing else") {
   for (auto& pixel : image.pixels) pixel = Spectrum(1.1f);
   for (int i : {5, 700, 2999}) image.pixels[std::size_t(i)] = Spectrum(1e6f);
   const ImageError error = compareImages(image, reference);
-  CHECK(error.relMseTrimmed == Approx(0.01 / 1.01).epsilon(1e-5));
-  CHECK(error.relMse > 1e8);
+  CHECK(error.relMse.trimmed == Approx(0.01 / 1.01).epsilon(1e-5));
+  CHECK(error.relMse.all > 1e8);
+  CHECK(error.mse.trimmed == Approx(0.01).epsilon(1e-5));
+  CHECK(error.mape.trimmed == Approx(0.1 / 1.01).epsilon(1e-5));
+  CHECK(error.smape.trimmed == Approx(0.2 / 2.11).epsilon(1e-5));
   image.pixels[1000] = Spectrum(1e6f);  // one more than 0.1%
-  CHECK(compareImages(image, reference).relMseTrimmed > 1e8);
+  CHECK(compareImages(image, reference).relMse.trimmed > 1e8);
 }
 
 TEST_CASE("Pixels that are not finite are counted and left out") {
@@ -43,7 +46,7 @@ TEST_CASE("Pixels that are not finite are counted and left out") {
   image.at(2, 0) = Spectrum(2);
   const ImageError error = compareImages(image, reference);
   CHECK(error.nonFinitePixels == 2);
-  CHECK(error.mse == Approx(1));
+  CHECK(error.mse.all == Approx(1));
   CHECK(errorPicture(image, reference).at(1, 0) == Spectrum(1));
 }
 

@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/render_job.h"
+#include "cli/report.h"
+#include "integrators/settings_json.h"
+
+namespace pt {
+
+namespace {
+
+struct InfoOptions {
+  SceneOptions scene;
+  bool json = false;
+};
+
+bool isScene(const std::filesystem::path& file) {
+  return file.extension() == ".json" || file.extension() == ".xml";
+}
+
+void printList(const char* title, const std::vector<std::string>& entries) {
+  for (std::size_t i = 0; i < entries.size(); ++i) fmt::print("{:<12} {}\n", i == 0 ? title : "", entries[i]);
+}
+
+void printScene(const InfoOptions& options) {
+  const SceneDescription description = loadDescription(options.scene);
+  const Scene scene(description);
+  if (options.json) {
+    fmt::print("{}\n", toJson(scene, description).dump(2));
+    return;
+  }
+  const SceneCounts& counts = scene.counts();
+  const FilmDescription& film = description.film;
+  const Vec3 lower = scene.bounds().min, upper = scene.bounds().max;
+  fmt::print("{:<12} {}\n", "scene", description.name);
+  fmt::print("{:<12} {}x{}, {} samples per pixel\n", "picture", film.width, film.height, description.spp);
+  fmt::print("{:<12} max depth {}, roulette from {}\n", "paths", description.integrator.maxDepth,
+             description.integrator.rrDepth);
+  fmt::print("{:<12} {} triangles, {} other primitives, {} instances\n", "geometry", counts.triangles,
+             counts.primitives, counts.instances);
+  fmt::print("{:<12} ({}, {}, {}) to ({}, {}, {})\n", "bounds", lower.x, lower.y, lower.z, upper.x, upper.y, upper.z);
+  fmt::print("{:<12} {} lights, {} materials\n", "content", counts.lights, counts.materials);
+  fmt::print("{:<12} {:.1f} MB\n", "memory", double(counts.memoryBytes) / 1e6);
+  printList("present", scene.features().present);
+  printList("left out", scene.features().leftOut);
+  printList("skipped", description.skipped);
+  printList("notes", description.notes);
+}
+
+void printField(const InfoOptions& options) {
+  const guiding::Field field = loadField(options.scene.file);
+  const guiding::FieldStats stats = field.stats();
+  if (options.json) {
+    nlohmann::ordered_json json = toJson(stats);
+    json["settings"] = toJson(field.settings());
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  fmt::print("{:<12} {} in {} iterations ({} dropped, {} outside the bounds)\n", "samples", stats.samples,
+             stats.iterations, stats.droppedSamples, stats.outsideSamples);
+  fmt::print("{:<12} {} ({} guided), depth up to {}{}\n", "leaves", stats.spatialLeaves, stats.guidedLeaves,
+             stats.maxSpatialDepth, stats.memoryCapReached ? "; held back by the memory cap" : "");
+  fmt::print("{:<12} {} nodes, depth up to {}, {:.1f} in the mean\n", "quadtrees", stats.quadtreeNodes,
+             stats.maxQuadtreeDepth, stats.meanQuadtreeDepth);
+  fmt::print("{:<12} {:.1f}% of the sphere emptied in the mean\n", "compensation", 100 * stats.compensatedArea);
+  fmt::print("{:<12} {:.1f} MB\n", "memory", double(stats.memoryBytes) / 1e6);
+  fmt::print("{:<12} {}\n", "settings", toJson(field.settings()).dump());
+}
+
+}  // namespace
+
+Command addInfoCommand(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("info", "Describes a scene or a trained field");
+  auto options = std::make_shared<InfoOptions>();
+  addOptions(*command, options->scene);
+  command->get_option("scene")->description("Scene file (.json, .xml) or trained field");
+  command->add_flag("--json", options->json, "Prints JSON, for scripts");
+  return {command, [options] { isScene(options->scene.file) ? printScene(*options) : printField(*options); }};
+}
+
+}  // namespace pt

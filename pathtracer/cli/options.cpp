@@ -1,0 +1,171 @@
+#include "cli/options.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "core/error.h"
+#include "core/near_name.h"
+#include "integrators/guiding_presets.h"
+#include "integrators/labels.h"
+#include "integrators/settings_json.h"
+#include "loaders/load_scene.h"
+
+namespace pt {
+
+namespace {
+
+/// Reads all of the text as a number.
+template <class T>
+std::optional<T> parseNumber(std::string_view text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+void applyResolution(const std::string& text, FilmDescription& film) {
+  const std::size_t x = text.find('x');
+  const auto width = parseNumber<int>(std::string_view(text).substr(0, x));
+  const auto height = x == std::string::npos ? std::nullopt : parseNumber<int>(std::string_view(text).substr(x + 1));
+  if (!width || !height || *width < 1 || *height < 1)
+    throw InputError(fmt::format("--resolution {}: give width and height in pixels, such as 640x360", text));
+  film.width = *width;
+  film.height = *height;
+}
+
+/// "form" or "form:strength".
+guiding::CompensationSettings parseCompensation(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const auto* form = valueOfLabel<guiding::CompensationForm>(std::string_view(text).substr(0, colon));
+  if (!form)
+    throw InputError(fmt::format("--compensation {}: no such form{}", text,
+                                 suggestName(text.substr(0, colon), labelsOf<guiding::CompensationForm>())));
+  guiding::CompensationSettings settings{*form, 1.0f};
+  if (colon == std::string::npos) return settings;
+  const auto strength = parseNumber<float>(std::string_view(text).substr(colon + 1));
+  if (!strength || !(*strength >= 0 && *strength <= 1))
+    throw InputError(fmt::format("--compensation {}: the strength must lie between 0 and 1, as in uniform:0.5", text));
+  settings.strength = *strength;
+  return settings;
+}
+
+bool isFileName(const std::string& text) {
+  return text.ends_with(".json") || text.find('/') != std::string::npos;
+}
+
+std::optional<GuidingSettings> guidingSettings(const SamplingOptions& options) {
+  if (isFileName(options.guiding)) {
+    GuidingSettings settings = loadGuidingSettings(options.guiding);
+    if (!options.compensation.empty()) settings.field.compensation = parseCompensation(options.compensation);
+    return settings;
+  }
+  const GuidingPreset* preset = findGuidingPreset(options.guiding);
+  if (!preset) {
+    std::vector<std::string> known;
+    for (const GuidingPreset& p : guidingPresets()) known.emplace_back(p.name);
+    throw InputError(fmt::format("--guiding {}: no such preset{}; settings of your own go into a file ending in .json",
+                                 options.guiding, suggestName(options.guiding, known)));
+  }
+  std::optional<GuidingSettings> settings = preset->settings;
+  if (settings)
+    settings->field.compensation = parseCompensation(options.compensation.empty() ? "uniform" : options.compensation);
+  return settings;
+}
+
+template <class Enum>
+CLI::IsMember memberOf() {
+  return CLI::IsMember(labelsOf<Enum>());
+}
+
+std::string presetHelp() {
+  std::string help = "How to guide: a preset or a settings file (.json). Presets:";
+  for (const GuidingPreset& preset : guidingPresets())
+    help += fmt::format(" {} ({}),", preset.name, preset.description);
+  help.pop_back();
+  return help;
+}
+
+}  // namespace
+
+void addOptions(CLI::App& command, SceneOptions& options) {
+  command.add_option("scene", options.file, "Scene file: scene.json, or Mitsuba XML (0.5 to 3)")->required();
+  command.add_option("--resolution", options.resolution, "Size of the picture, such as 640x360 (default: the scene's)");
+  command.add_option("--max-depth", options.maxDepth,
+                     "Longest path in edges; 1: emission only, -1: unbounded (default: the scene's)");
+  command.add_option("--rr-depth", options.rrDepth,
+                     "Edges from which Russian roulette may end a path (default: the scene's)");
+  command.add_flag("--skip-unsupported", options.skipUnsupported,
+                   "Leave out what is not supported, and list it, instead of failing");
+  command.add_option("-D", options.variables, "Sets a variable of a Mitsuba scene: -D name=value (may be repeated)")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+}
+
+void addOptions(CLI::App& command, SamplingOptions& options) {
+  auto* spp =
+      command.add_option("--spp", options.spp, "Samples per pixel in all, training included (default: the scene's)")
+          ->check(CLI::PositiveNumber);
+  command.add_option("--seconds", options.seconds, "Time in all, training included, instead of --spp")
+      ->check(CLI::PositiveNumber)
+      ->excludes(spp);
+  command.add_option("--guiding", options.guiding, presetHelp())->capture_default_str();
+  auto* compensation = command.add_option(
+      "--compensation", options.compensation,
+      "Sharpens the guide against BSDF sampling: none, uniform or clip, with an optional strength from 0 to 1 as in "
+      "uniform:0.5 (default: uniform; with a settings file, what the file says)");
+  command
+      .add_option("--field", options.field,
+                  "Guides with a field that was trained before; the whole budget is then rendered with it")
+      ->excludes(compensation);
+  command.add_option("--nee", options.nee, "Light sampling (next-event estimation): on or off")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
+  command.add_option("--heuristic", options.heuristic, "How light sampling and scattering share: balance or power")
+      ->check(memberOf<MisHeuristic>())
+      ->capture_default_str();
+  command.add_option("--sampler", options.sampler, "Random numbers: independent or sobol (default: the scene's)")
+      ->check(memberOf<SamplerKind>());
+  command.add_option("--threads", options.threads, "Number of threads; 0: all that the machine has")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.add_option("--seed", options.seed, "Another seed gives another, equally good picture")->capture_default_str();
+}
+
+SceneDescription loadDescription(const SceneOptions& options) {
+  LoadOptions load;
+  load.skipUnsupported = options.skipUnsupported;
+  for (const std::string& variable : options.variables) {
+    const std::size_t equals = variable.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError(fmt::format("-D {}: give name=value, such as -D spp=64", variable));
+    load.variables[variable.substr(0, equals)] = variable.substr(equals + 1);
+  }
+  SceneDescription description = loadScene(options.file, load);
+  if (!options.resolution.empty()) applyResolution(options.resolution, description.film);
+  if (options.maxDepth) description.integrator.maxDepth = *options.maxDepth;
+  if (options.rrDepth) description.integrator.rrDepth = *options.rrDepth;
+  return description;
+}
+
+RenderSettings renderSettings(const SamplingOptions& options, const SceneDescription& description) {
+  RenderSettings settings;
+  settings.width = description.film.width;
+  settings.height = description.film.height;
+  settings.path = description.integrator;
+  settings.filter = description.film.filter;
+  settings.sampler = options.sampler.empty() ? description.sampler : *valueOfLabel<SamplerKind>(options.sampler);
+  settings.seed = options.seed;
+  settings.threads = options.threads;
+  settings.seconds = options.seconds;
+  settings.spp = options.seconds > 0 ? 0 : options.spp > 0 ? options.spp : description.spp;
+  settings.nee = options.nee == "on";
+  settings.heuristic = *valueOfLabel<MisHeuristic>(options.heuristic);
+  settings.guiding = guidingSettings(options);
+  if (!options.field.empty() && !settings.guiding)
+    throw InputError(
+        fmt::format("--field {}: a trained field is of no use with --guiding none", options.field.string()));
+  return settings;
+}
+
+}  // namespace pt

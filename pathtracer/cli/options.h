@@ -1,0 +1,45 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "integrators/render.h"
+#include "scene/scene_description.h"
+
+namespace pt {
+
+/// Which scene, and what of it is to be different.
+struct SceneOptions {
+  std::filesystem::path file;
+  bool skipUnsupported = false;
+  std::vector<std::string> variables;  ///< "name=value"
+  std::string resolution;              ///< "WxH"; empty: the scene's
+  std::optional<int> maxDepth, rrDepth;
+};
+
+/// How to sample and guide.
+struct SamplingOptions {
+  std::int64_t spp = 0;
+  double seconds = 0;
+  std::string guiding = "mueller2017";
+  std::string compensation;  ///< empty: uniform on a preset, as the file says with a settings file
+  std::filesystem::path field;
+  std::string nee = "on", heuristic = "balance", sampler;
+  int threads = 0;
+  std::uint64_t seed = 0;
+};
+
+void addOptions(CLI::App& command, SceneOptions& options);
+void addOptions(CLI::App& command, SamplingOptions& options);
+
+/// Loads the scene and applies the options. Throws InputError.
+SceneDescription loadDescription(const SceneOptions& options);
+
+/// What the options and the scene ask for. Throws InputError.
+RenderSettings renderSettings(const SamplingOptions& options, const SceneDescription& description);
+
+}  // namespace pt

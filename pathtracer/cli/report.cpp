@@ -1,0 +1,123 @@
+#include "cli/report.h"
+
+#include <guiding/version.h>
+#include <sys/resource.h>
+
+#include "integrators/labels.h"
+#include "integrators/settings_json.h"
+
+namespace pt {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::size_t peakMemoryBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::size_t(usage.ru_maxrss) * 1024;
+}
+
+Json toJson(const IterationReport& iteration) {
+  return {{"index", iteration.index},
+          {"spp", iteration.spp},
+          {"seconds", iteration.seconds},
+          {"trainSeconds", iteration.trainSeconds},
+          {"freezeSeconds", iteration.freezeSeconds},
+          {"variance", iteration.variance},
+          {"weight", iteration.weight}};
+}
+
+Json toJson(const RenderCounters& counters) {
+  const double share =
+      counters.scatterings > 0 ? double(counters.guidedScatterings) / double(counters.scatterings) : 0.0;
+  return {{"paths", counters.paths},
+          {"rays", counters.rays},
+          {"shadowRays", counters.shadowRays},
+          {"scatterings", counters.scatterings},
+          {"guidedScatterings", counters.guidedScatterings},
+          {"guidedShare", share},
+          {"rejectedSamples", counters.rejectedSamples}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json toJson(const Scene& scene, const SceneDescription& description) {
+  const SceneCounts& counts = scene.counts();
+  return {{"name", description.name},
+          {"file", description.file.string()},
+          {"triangles", counts.triangles},
+          {"primitives", counts.primitives},
+          {"instances", counts.instances},
+          {"lights", counts.lights},
+          {"materials", counts.materials},
+          {"memoryBytes", counts.memoryBytes},
+          {"present", scene.features().present},
+          {"leftOut", scene.features().leftOut},
+          {"skipped", description.skipped},
+          {"notes", description.notes}};
+}
+
+nlohmann::ordered_json toJson(const RenderSettings& settings) {
+  return {{"width", settings.width},
+          {"height", settings.height},
+          {"spp", settings.spp > 0 ? Json(settings.spp) : Json()},
+          {"seconds", settings.seconds > 0 ? Json(settings.seconds) : Json()},
+          {"seed", settings.seed},
+          {"threads", settings.threads},
+          {"sampler", labelOf(settings.sampler)},
+          {"filter", labelOf(settings.filter)},
+          {"maxDepth", settings.path.maxDepth},
+          {"rrDepth", settings.path.rrDepth},
+          {"strictNormals", settings.path.strictNormals},
+          {"hideEmitters", settings.path.hideEmitters},
+          {"nee", settings.nee},
+          {"heuristic", labelOf(settings.heuristic)},
+          {"guiding", settings.guiding ? toJson(*settings.guiding) : Json()},
+          {"learnFinal", settings.learnFinal}};
+}
+
+nlohmann::ordered_json toJson(const guiding::FieldStats& stats) {
+  return {{"iterations", stats.iterations},
+          {"samples", stats.samples},
+          {"droppedSamples", stats.droppedSamples},
+          {"outsideSamples", stats.outsideSamples},
+          {"spatialLeaves", stats.spatialLeaves},
+          {"guidedLeaves", stats.guidedLeaves},
+          {"maxSpatialDepth", stats.maxSpatialDepth},
+          {"quadtreeNodes", stats.quadtreeNodes},
+          {"maxQuadtreeDepth", stats.maxQuadtreeDepth},
+          {"meanQuadtreeDepth", stats.meanQuadtreeDepth},
+          {"compensatedArea", stats.compensatedArea},
+          {"memoryBytes", stats.memoryBytes},
+          {"memoryCapReached", stats.memoryCapReached}};
+}
+
+std::int64_t totalSpp(const RenderResult& result) {
+  std::int64_t spp = 0;
+  for (const IterationReport& iteration : result.iterations) spp += iteration.spp;
+  return spp;
+}
+
+nlohmann::ordered_json makeReport(const std::string& command, const RenderJob& job, const RenderResult& result) {
+  Json iterations = Json::array();
+  for (const IterationReport& iteration : result.iterations) iterations.push_back(toJson(iteration));
+  return {{"program", "pathtracer"},
+          {"version", guiding::kVersionText},
+          {"command", command},
+          {"scene", toJson(*job.scene, job.description)},
+          {"settings", toJson(job.settings)},
+          {"spp", totalSpp(result)},
+          {"interrupted", result.interrupted},
+          {"loadSeconds", job.loadSeconds},
+          {"buildSeconds", job.buildSeconds},
+          {"renderSeconds", result.seconds},
+          {"renderCpuSeconds", result.cpuSeconds},
+          {"iterations", std::move(iterations)},
+          {"counters", toJson(result.counters)},
+          {"field", result.field ? toJson(result.field->stats()) : Json()},
+          {"peakRecordBytes", result.peakRecordBytes},
+          {"peakMemoryBytes", peakMemoryBytes()}};
+}
+
+}  // namespace pt

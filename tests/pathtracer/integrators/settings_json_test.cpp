@@ -1,0 +1,62 @@
+#include "integrators/settings_json.h"
+
+#include "catch.h"
+#include "core/error.h"
+
+using nlohmann::ordered_json;
+
+namespace {
+
+std::string errorOf(const char* text) {
+  try {
+    pt::guidingSettingsFromJson(ordered_json::parse(text), "g.json");
+  } catch (const pt::InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST_CASE("guiding settings survive the way through JSON", "[settings]") {
+  pt::GuidingSettings settings;
+  settings.field.sTreeThreshold = 4000;
+  settings.field.dTreeThreshold = 0.02f;
+  settings.field.maxMemoryBytes = std::size_t(1) << 40;
+  settings.field.compensation = {guiding::CompensationForm::ClipRenormalise, 0.3f};
+  settings.schedule.sppPerPass = 2;
+  settings.schedule.combination = guiding::SampleCombination::InverseVariance;
+  const ordered_json json = pt::toJson(settings);
+  const pt::GuidingSettings back = pt::guidingSettingsFromJson(ordered_json::parse(json.dump()), "g.json");
+  CHECK(pt::toJson(back) == json);
+  CHECK(back.field.dTreeThreshold == 0.02f);
+  CHECK(back.field.compensation.form == guiding::CompensationForm::ClipRenormalise);
+  CHECK(back.field.maxMemoryBytes == std::size_t(1) << 40);
+}
+
+TEST_CASE("what a settings file leaves out is as in its preset", "[settings]") {
+  const auto settings = pt::guidingSettingsFromJson(
+      ordered_json::parse(R"({"preset": "mueller2017", "field": {"compensation": {"form": "uniform"}}})"), "g.json");
+  CHECK(settings.field.sTreeThreshold == guiding::FieldSettings::mueller2017().sTreeThreshold);
+  CHECK(settings.field.compensation.form == guiding::CompensationForm::WaterFilling);
+}
+
+TEST_CASE("broken settings are named with their place", "[settings]") {
+  using Catch::Matchers::Contains;
+  CHECK_THAT(errorOf(R"([])"), Contains("g.json#: expected an object"));
+  CHECK_THAT(errorOf(R"({"fields": {}})"), Contains("g.json#: unknown key 'fields'; did you mean 'field'?"));
+  CHECK_THAT(errorOf(R"({"field": {"sTreeTreshold": 1}})"),
+             Contains("g.json#/field: unknown key 'sTreeTreshold'; did you mean 'sTreeThreshold'?"));
+  CHECK_THAT(errorOf(R"({"field": {"sTreeThreshold": "many"}})"),
+             Contains("g.json#/field/sTreeThreshold: expected a number"));
+  CHECK_THAT(errorOf(R"({"field": {"maxDTreeDepth": 2.5}})"),
+             Contains("/field/maxDTreeDepth: expected a whole number"));
+  CHECK_THAT(errorOf(R"({"field": {"maxDTreeDepth": 99999999999}})"), Contains("/field/maxDTreeDepth"));
+  CHECK_THAT(errorOf(R"({"field": {"maxMemoryBytes": -1}})"),
+             Contains("/field/maxMemoryBytes: expected a whole number"));
+  CHECK_THAT(errorOf(R"({"field": {"dTreeThreshold": 2}})"), Contains("#/field: dTreeThreshold must"));
+  CHECK_THAT(errorOf(R"({"field": {"compensation": {"form": "unifrom"}}})"), Contains("did you mean 'uniform'?"));
+  CHECK_THAT(errorOf(R"({"preset": "muller2017"})"),
+             Contains("#/preset: no guiding preset 'muller2017'; did you mean 'mueller2017'?"));
+  CHECK_THAT(errorOf(R"({"schedule": {"sppPerPass": 0}})"), Contains("#/schedule: sppPerPass"));
+}
