@@ -50,7 +50,7 @@ Spectrum PathLoop::trace(Ray ray, Sampler& sampler, PathWorker& worker) const no
     // The guide at this point
     const SurfaceBsdf bsdf(si, m_settings.strictNormals);
     const bool hasSmooth = si.material->traits().hasSmooth;
-    const auto guide = m_field && hasSmooth ? m_field->bind(si.p) : guiding::GuidingDistribution();
+    const auto guide = hasSmooth ? bindGuide(si, bsdf) : guiding::GuidingDistribution();
 
     // Direct light
     if (m_nee && hasSmooth) {
@@ -63,6 +63,11 @@ Spectrum PathLoop::trace(Ray ray, Sampler& sampler, PathWorker& worker) const no
     if (!scatter(path, si, bsdf, guide, sampler, worker, ray)) break;
   }
   return path.radiance;
+}
+
+guiding::GuidingDistribution PathLoop::bindGuide(const SurfaceInteraction& si, const SurfaceBsdf& bsdf) const noexcept {
+  if (!m_field) return {};
+  return m_field->settings().product ? m_field->bind(si.p, bsdf.lobes()) : m_field->bind(si.p);
 }
 
 Spectrum PathLoop::emission(const PathState& path, const Ray& ray, const SurfaceInteraction* hit) const noexcept {

@@ -40,6 +40,7 @@ class PathLoop {
  private:
   struct PathState;
 
+  guiding::GuidingDistribution bindGuide(const SurfaceInteraction& si, const SurfaceBsdf& bsdf) const noexcept;
   Spectrum emission(const PathState& path, const Ray& ray, const SurfaceInteraction* hit) const noexcept;
   bool survivesRoulette(PathState& path, Sampler& sampler, PathWorker& worker) const noexcept;
   Spectrum sampleDirect(const SurfaceInteraction& si, const SurfaceBsdf& bsdf,

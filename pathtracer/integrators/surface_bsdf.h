@@ -32,6 +32,17 @@ class SurfaceBsdf {
     return draw;
   }
 
+  /// What the guide multiplies with.
+  guiding::LobeSet lobes() const noexcept {
+    guiding::LobeSet local, world;
+    m_si.material->describeLobes(m_si, m_woLocal, local);
+    for (guiding::Lobe lobe : local.lobes()) {
+      lobe.axis = m_si.frame.toWorld(lobe.axis);
+      world.add(lobe);
+    }
+    return world;
+  }
+
   float etaCrossed(const Vec3& wi) const noexcept {
     return m_si.material->etaCrossed(m_woLocal, m_si.frame.toLocal(wi));
   }

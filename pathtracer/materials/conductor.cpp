@@ -1,4 +1,5 @@
 #include "core/fresnel.h"
+#include "materials/lobes.h"
 #include "materials/make_material.h"
 #include "materials/microfacets.h"
 #include "materials/scattering.h"
@@ -55,6 +56,10 @@ class RoughConductor final : public Material {
     if (wo.z <= 0) return {};
     const Vec3 wi = reflect(wo, m_facets.sampleNormal(wo, u)).normalized();
     return sampleOf(evaluate(si, wo, wi), wi);
+  }
+
+  void describeLobes(const SurfaceInteraction&, const Vec3& wo, guiding::LobeSet& out) const noexcept override {
+    if (wo.z > 0) out.add(reflectionLobe(wo, m_facets, average(m_metal.reflectance(wo.z)), 1));
   }
 
   Spectrum albedo(const SurfaceInteraction&) const noexcept override { return m_metal.reflectance(1); }

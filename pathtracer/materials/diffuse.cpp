@@ -1,4 +1,5 @@
 #include "core/warp.h"
+#include "materials/lobes.h"
 #include "materials/make_material.h"
 
 namespace pt {
@@ -20,6 +21,10 @@ class Diffuse final : public Material {
     if (wo.z <= 0) return {};
     const Vec3 wi = squareToCosineHemisphere(u);
     return {.wi = wi, .weight = m_reflectance, .pdf = cosineHemispherePdf(wi)};
+  }
+
+  void describeLobes(const SurfaceInteraction&, const Vec3& wo, guiding::LobeSet& out) const noexcept override {
+    if (wo.z > 0) out.add(cosineLobe(average(m_reflectance), 1));
   }
 
   Spectrum albedo(const SurfaceInteraction&) const noexcept override { return m_reflectance; }

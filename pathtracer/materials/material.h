@@ -1,5 +1,6 @@
 #pragma once
 
+#include <guiding/lobes.h>
 #include <guiding/mixture.h>
 
 #include <memory>
@@ -53,6 +54,10 @@ class Material {
   /// uLobe in [0,1) chooses among lobes, u in [0,1)^2 the direction.
   virtual BsdfSample sample(const SurfaceInteraction& si, const Vec3& wo, float uLobe,
                             const Vec2& u) const noexcept = 0;
+
+  /// Adds a rough description of the smooth lobes seen from wo, local frame, for the guide to multiply with. A material
+  /// that cannot tell adds nothing.
+  virtual void describeLobes(const SurfaceInteraction&, const Vec3&, guiding::LobeSet&) const noexcept {}
 
   /// Total reflectance for a denoiser's albedo layer, in [0, 1].
   virtual Spectrum albedo(const SurfaceInteraction& si) const noexcept = 0;

@@ -17,6 +17,8 @@ class Microfacets {
   Microfacets(MicrofacetDistribution distribution, float alpha, bool sampleVisible) noexcept
       : m_distribution(distribution), m_alpha(alpha), m_sampleVisible(sampleVisible) {}
 
+  float alpha() const noexcept { return m_alpha; }
+
   /// D(m): facet area per unit of surface and solid angle of normals; D(m) m.z integrates to 1.
   float density(const Vec3& m) const noexcept;
 

@@ -1,5 +1,6 @@
 #include "core/fresnel.h"
 #include "core/warp.h"
+#include "materials/lobes.h"
 #include "materials/make_material.h"
 #include "materials/scattering.h"
 
@@ -40,6 +41,13 @@ class SmoothPlastic final : public Material {
       return {.wi = reflect(wo), .weight = m_specular * (fresnel / pSpecular), .pdf = pSpecular, .isDelta = true};
     const Vec3 wi = squareToCosineHemisphere(u);
     return sampleOf(evaluate(si, wo, wi), wi);
+  }
+
+  void describeLobes(const SurfaceInteraction&, const Vec3& wo, guiding::LobeSet& out) const noexcept override {
+    if (wo.z <= 0) return;
+    const float fresnel = fresnelDielectric(wo.z, m_eta).reflectance;
+    const float entering = 1 - diffuseFresnelReflectance(m_eta);
+    out.add(cosineLobe(average(m_base) * (1 - fresnel) * entering, 1 - specularProbability(fresnel)));
   }
 
   Spectrum albedo(const SurfaceInteraction&) const noexcept override {

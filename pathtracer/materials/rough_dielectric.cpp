@@ -1,4 +1,5 @@
 #include "core/fresnel.h"
+#include "materials/lobes.h"
 #include "materials/make_material.h"
 #include "materials/scattering.h"
 
@@ -51,6 +52,16 @@ class RoughDielectric final : public Material {
     const Vec3 wi = (reflects ? reflect(wo, m) : refract(wo, m, fresnel)).normalized();
     if ((wi.z * wo.z > 0) != reflects) return {};  // left through the wrong side
     return sampleOf(evaluate(si, wo, wi), wi);
+  }
+
+  void describeLobes(const SurfaceInteraction&, const Vec3& wo, guiding::LobeSet& out) const noexcept override {
+    if (wo.z == 0) return;
+    const DielectricFresnel fresnel = fresnelDielectric(wo.z, m_eta);
+    const float pReflect = m_tints.reflectProbability(fresnel.reflectance);
+    const float transmitted = (1 - fresnel.reflectance) / (fresnel.eta * fresnel.eta);  // radiance is compressed
+    out.add(reflectionLobe(wo, m_facets, average(m_tints.reflectance) * fresnel.reflectance, pReflect));
+    if (transmitted > 0)
+      out.add(refractionLobe(wo, m_facets, fresnel, average(m_tints.transmittance) * transmitted, 1 - pReflect));
   }
 
   Spectrum albedo(const SurfaceInteraction&) const noexcept override {

@@ -1,5 +1,6 @@
 #include "core/fresnel.h"
 #include "core/warp.h"
+#include "materials/lobes.h"
 #include "materials/make_material.h"
 #include "materials/scattering.h"
 
@@ -50,6 +51,14 @@ class RoughPlastic final : public Material {
     const bool specular = uLobe < specularProbability(m_transmittance->directional(wo.z));
     const Vec3 wi = specular ? reflect(wo, m_facets.sampleNormal(wo, u)).normalized() : squareToCosineHemisphere(u);
     return sampleOf(evaluate(si, wo, wi), wi);
+  }
+
+  void describeLobes(const SurfaceInteraction&, const Vec3& wo, guiding::LobeSet& out) const noexcept override {
+    if (wo.z <= 0) return;
+    const float transmitted = m_transmittance->directional(wo.z);
+    const float pSpecular = specularProbability(transmitted);
+    out.add(cosineLobe(average(m_base) * transmitted * m_transmittance->diffuse(), 1 - pSpecular));
+    out.add(reflectionLobe(wo, m_facets, average(m_specular) * (1 - transmitted), pSpecular));
   }
 
   Spectrum albedo(const SurfaceInteraction&) const noexcept override {

@@ -27,6 +27,16 @@ class TwoSided final : public Material {
     return sample;
   }
 
+  void describeLobes(const SurfaceInteraction& si, const Vec3& wo, guiding::LobeSet& out) const noexcept override {
+    if (wo.z > 0) return m_front.describeLobes(si, wo, out);
+    guiding::LobeSet mirroredLobes;
+    m_back.describeLobes(si, mirrored(wo), mirroredLobes);
+    for (guiding::Lobe lobe : mirroredLobes.lobes()) {
+      lobe.axis = mirrored(lobe.axis);
+      out.add(lobe);
+    }
+  }
+
   Spectrum albedo(const SurfaceInteraction& si) const noexcept override {
     return si.wo.dot(si.frame.n) > 0 ? m_front.albedo(si) : m_back.albedo(si);
   }
