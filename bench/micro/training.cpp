@@ -8,6 +8,10 @@ namespace bench {
 
 namespace {
 
+void check(benchmark::State& state, const guiding::Status& status) {
+  if (!status) state.SkipWithError(status.error().text.c_str());
+}
+
 constexpr std::size_t kBatch = 1 << 20;
 
 guiding::FieldSettings settings() {
@@ -47,7 +51,7 @@ void accumulate(benchmark::State& state) {
   Random random(2);
   const guiding::SampleBuffer buffer = recordSamples(nearLights(), field, kBatch, random);
   tbb::task_arena arena(int(state.range(0)));
-  for (auto _ : state) arena.execute([&] { field.accumulate(buffer); });
+  for (auto _ : state) arena.execute([&] { check(state, field.accumulate(buffer)); });
   state.SetItemsProcessed(state.iterations() * std::int64_t(kBatch));
   state.counters["leaves"] = double(field.stats().spatialLeaves);
 }
@@ -60,9 +64,9 @@ void endIteration(benchmark::State& state) {
   tbb::task_arena arena(int(state.range(0)));
   for (auto _ : state) {
     state.PauseTiming();
-    arena.execute([&] { field.accumulate(buffer); });
+    arena.execute([&] { check(state, field.accumulate(buffer)); });
     state.ResumeTiming();
-    arena.execute([&] { field.endIteration(4 * 32); });
+    arena.execute([&] { check(state, field.endIteration(4 * 32)); });
   }
   state.counters["leaves"] = double(field.stats().spatialLeaves);
 }

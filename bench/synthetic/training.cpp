@@ -1,5 +1,6 @@
 #include "synthetic/training.h"
 
+#include <new>
 #include <stdexcept>
 
 namespace bench {
@@ -32,8 +33,9 @@ guiding::Field trainField(const LightField& light, const guiding::FieldSettings&
   guiding::Field field = std::move(created).value();
   Random random(seed);
   for (int k = 0; k < plan.iterations; ++k) {
-    field.accumulate(recordSamples(light, field, plan.firstSamples << k, random));
-    field.endIteration(4.0 * (1 << k));
+    if (!field.accumulate(recordSamples(light, field, plan.firstSamples << k, random)) ||
+        !field.endIteration(4.0 * (1 << k)))
+      throw std::bad_alloc();
   }
   return field;
 }

@@ -1,6 +1,3 @@
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -13,14 +10,18 @@ namespace guiding {
 
 namespace {
 
+/// Samples that are sorted at once: bounds the memory beside the field.
+constexpr std::size_t kBlock = 1 << 22;
+/// Leaves that one task takes at a time.
+constexpr std::size_t kLeafGrain = 16;
+
 bool isUsable(const RadianceSample& s) noexcept {
   constexpr float kMax = std::numeric_limits<float>::max();
-  const auto finite = [](const Imath::V3f& v) {
-    return std::abs(v.x) <= kMax && std::abs(v.y) <= kMax && std::abs(v.z) <= kMax;
-  };
-  return s.radiance >= 0 && s.radiance <= kMax && s.product >= 0 && s.product <= kMax && s.pdf > 0 && s.pdf <= kMax &&
-         s.radiance / s.pdf <= kMax && s.bsdfPdf >= 0 && s.bsdfPdf <= kMax && s.guidePdf >= 0 && s.guidePdf <= kMax &&
-         finite(s.position) && finite(s.direction);
+  const auto usable = [](float x) { return x >= 0 && x <= kMax; };
+  const auto& p = s.position;
+  return usable(s.radiance) && usable(s.product) && usable(s.pdf) && s.pdf > 0 && usable(s.bsdfPdf) &&
+         usable(s.guidePdf) && usable(std::abs(p.x)) && usable(std::abs(p.y)) && usable(std::abs(p.z)) &&
+         std::abs(s.direction.length2() - 1) < 0.01f;
 }
 
 /// Three numbers in [0, 1) that depend on the sample alone [splitmix64: Steele et al. 2014].
@@ -53,35 +54,33 @@ std::uint32_t learningLeaf(const Field::State& state, const RadianceSample& samp
 /// A sample on its way into a quadtree.
 struct Splat {
   SquarePoint point;
-  float value;  ///< radiance / pdf
+  double value;  ///< radiance / pdf; the quotient of two floats may leave their range
 };
 
-void learnRadiance(Field::State& state, const SampleSequence& samples) {
+void learnRadiance(Field::State& state, const SampleRange& samples) {
   const DirectionMap map = state.settings.directionMap;
   const auto splats = partitionByLeaf<Splat>(
       samples, state.leaves.size(),
       [&](const RadianceSample& s) { return isUsable(s) ? learningLeaf(state, s) : kNoLeaf; },
       [&](const RadianceSample& s) {
-        return Splat{toSquarePoint(sphereToSquare(map, s.direction)), s.radiance / s.pdf};
+        return Splat{toSquarePoint(sphereToSquare(map, s.direction)), double(s.radiance) / double(s.pdf)};
       });
   const bool box = state.settings.directionalFilter == DirectionalFilter::Box;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, state.leaves.size(), 16), [&](const auto& range) {
-    for (std::size_t leaf = range.begin(); leaf != range.end(); ++leaf) {
-      SpatialLeaf& target = state.leaves[leaf];
-      target.sampleCount += splats.ofLeaf(leaf).size();
-      for (const Splat& splat : splats.ofLeaf(leaf)) {
-        if (!(splat.value > 0)) continue;
-        if (box)
-          splatBox(target.building, map, splat.point, splat.value);
-        else
-          target.building.splat(splat.point, splat.value);
-      }
+  parallelFor(state.leaves.size(), kLeafGrain, [&](std::size_t leaf) {
+    SpatialLeaf& target = state.leaves[leaf];
+    target.sampleCount += splats.ofLeaf(leaf).size();
+    for (const Splat& splat : splats.ofLeaf(leaf)) {
+      if (!(splat.value > 0)) continue;
+      if (box)
+        splatBox(target.building, map, splat.point, splat.value);
+      else
+        target.building.splat(splat.point, splat.value);
     }
   });
 }
 
 /// Fractions are learned in the leaf whose guide was mixed in, from samples that had one.
-void learnFraction(Field::State& state, const SampleSequence& samples) {
+void learnFraction(Field::State& state, const SampleRange& samples) {
   const auto records = partitionByLeaf<FractionRecord>(
       samples, state.leaves.size(),
       [&](const RadianceSample& s) {
@@ -92,17 +91,15 @@ void learnFraction(Field::State& state, const SampleSequence& samples) {
         return FractionRecord{s.product, s.pdf, s.bsdfPdf, s.guidePdf};
       });
   const FractionLoss loss = state.settings.fractionLoss;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, state.leaves.size(), 16), [&](const auto& range) {
-    for (std::size_t leaf = range.begin(); leaf != range.end(); ++leaf) {
-      if (state.settings.fractionMode == FractionMode::Adam)
-        state.leaves[leaf].adam.learn(records.ofLeaf(leaf), loss);
-      else
-        state.leaves[leaf].slopes.learn(records.ofLeaf(leaf), loss);
-    }
+  parallelFor(state.leaves.size(), kLeafGrain, [&](std::size_t leaf) {
+    if (state.settings.fractionMode == FractionMode::Adam)
+      state.leaves[leaf].adam.learn(records.ofLeaf(leaf), loss);
+    else
+      state.leaves[leaf].slopes.learn(records.ofLeaf(leaf), loss);
   });
 }
 
-void count(Field::State& state, const SampleSequence& samples) {
+void count(Field::State& state, const SampleRange& samples) {
   samples.forEach(0, samples.size(), [&](std::size_t, const RadianceSample& s) {
     if (!isUsable(s))
       ++state.droppedSamples;
@@ -115,9 +112,13 @@ void count(Field::State& state, const SampleSequence& samples) {
 
 void accumulate(Field::State& state, std::span<const SampleBuffer> buffers) {
   const SampleSequence samples(buffers);
-  learnRadiance(state, samples);
-  if (state.settings.fractionMode != FractionMode::Fixed && state.hasGuide) learnFraction(state, samples);
-  count(state, samples);
+  for (std::size_t begin = 0; begin < samples.size(); begin += kBlock) {
+    const SampleRange block(samples, begin, std::min(begin + kBlock, samples.size()));
+    learnRadiance(state, block);
+    if (state.settings.fractionMode != FractionMode::Fixed && state.hasGuide) learnFraction(state, block);
+    count(state, block);
+  }
+  for (const SampleBuffer& buffer : buffers) state.droppedSamples += buffer.lost();
 }
 
 }  // namespace guiding

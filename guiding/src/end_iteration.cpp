@@ -1,70 +1,93 @@
-#include <tbb/parallel_for.h>
-
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "freeze.h"
+#include "parallel.h"
 #include "training.h"
 
 namespace guiding {
 
 namespace {
 
+/// A leaf after an iteration: what is sampled next, and what learns next.
 struct FrozenLeaf {
   FrozenTree tree;
-  DirectionalQuadtree next;
+  SpatialLeaf next;
 };
 
-void learnFraction(SpatialLeaf& leaf, FractionMode mode) {
-  if (mode == FractionMode::Adam && leaf.adam.steps > 0) leaf.fraction = leaf.adam.fraction();
-  if (mode == FractionMode::Fit) leaf.fraction = leaf.slopes.fraction(leaf.fraction);
-  leaf.slopes = {};
+void learnFraction(const SpatialLeaf& leaf, FractionMode mode, SpatialLeaf& next) {
+  next.fraction = leaf.fraction;
+  next.adam = leaf.adam;
+  if (mode == FractionMode::Adam && leaf.adam.steps > 0) next.fraction = leaf.adam.fraction();
+  if (mode == FractionMode::Fit) next.fraction = leaf.slopes.fraction(leaf.fraction);
 }
 
 /// The density of a leaf and the quadtree it learns into next. A leaf that learned nothing keeps its topology and
-/// offers no guide.
+/// offers no guide. Of `leaf` only sums of inner nodes change.
 FrozenLeaf freezeLeaf(SpatialLeaf& leaf, const FieldSettings& settings) {
   const double total = leaf.building.build();
-  learnFraction(leaf, settings.fractionMode);
   FrozenLeaf frozen;
+  learnFraction(leaf, settings.fractionMode, frozen.next);
   if (!(total > 0) || !std::isfinite(total)) {
-    frozen.next = leaf.building;
-    for (auto& node : frozen.next.nodes()) node.sum = {};
+    frozen.next.building = leaf.building;
+    for (auto& node : frozen.next.building.nodes()) node.sum = {};
     return frozen;
   }
   // A product is compensated where it is formed, at the shading point.
   const CompensationForm form = settings.product ? CompensationForm::None : settings.compensation.form;
-  if (leaf.fraction < 1) frozen.tree = freeze(leaf.building, form, leaf.fraction * settings.compensation.strength);
-  frozen.tree.tree.bsdfSamplingFraction = leaf.fraction;
-  frozen.next = leaf.building.refined(total, settings.dTreeThreshold, settings.maxDTreeDepth);
+  const float fraction = frozen.next.fraction;
+  if (fraction < 1) frozen.tree = freeze(leaf.building, form, fraction * settings.compensation.strength);
+  frozen.tree.tree.bsdfSamplingFraction = fraction;
+  frozen.next.building = leaf.building.refined(total, settings.dTreeThreshold, settings.maxDTreeDepth);
   return frozen;
 }
 
-/// Joins the frozen leaves into one density and tells each leaf its tree.
-void publish(Field::State& state, std::vector<FrozenLeaf>& frozen) {
+/// What the state becomes, built beside it: running out of memory leaves the state as it was.
+struct NextState {
+  explicit NextState(const SpatialTree& current) : tree(current) {}
+
+  SpatialTree tree;
+  std::vector<SpatialLeaf> leaves;
+  std::vector<std::uint32_t> densityOfLeaf;
   std::vector<GuidingDensity::Tree> trees;
   std::vector<GuidingDensity::Node> nodes;
+  bool memoryCapReached = false;
+
+  std::size_t memoryBytes() const noexcept {
+    std::size_t bytes = tree.memoryBytes() + densityOfLeaf.size() * sizeof(std::uint32_t) +
+                        trees.size() * sizeof(GuidingDensity::Tree) + nodes.size() * sizeof(GuidingDensity::Node);
+    for (const SpatialLeaf& leaf : leaves) bytes += leaf.memoryBytes();
+    return bytes;
+  }
+};
+
+/// Joins the frozen trees into one density and tells each leaf its own.
+void publish(NextState& next, std::vector<FrozenLeaf>& frozen) {
   std::size_t nodeCount = 0;
   for (const FrozenLeaf& f : frozen) nodeCount += f.tree.nodes.size();
-  nodes.reserve(nodeCount);
+  if (nodeCount > ~std::uint32_t(0)) throw std::length_error("more nodes than 32 bits count");
+  next.nodes.reserve(nodeCount);
+  next.densityOfLeaf.reserve(frozen.size());
+  next.leaves.reserve(frozen.size());
 
-  for (std::size_t leaf = 0; leaf < frozen.size(); ++leaf) {
-    FrozenTree& from = frozen[leaf].tree;
-    state.densityOfLeaf[leaf] = from.guided ? std::uint32_t(trees.size()) : GuidingDensity::kNoGuide;
+  for (FrozenLeaf& leaf : frozen) {
+    FrozenTree& from = leaf.tree;
+    next.densityOfLeaf.push_back(from.guided ? std::uint32_t(next.trees.size()) : GuidingDensity::kNoGuide);
     if (!from.guided) continue;
-    from.tree.firstNode = std::uint32_t(nodes.size());
-    trees.push_back(from.tree);
-    nodes.insert(nodes.end(), from.nodes.begin(), from.nodes.end());
+    from.tree.firstNode = std::uint32_t(next.nodes.size());
+    next.trees.push_back(from.tree);
+    next.nodes.insert(next.nodes.end(), from.nodes.begin(), from.nodes.end());
     from.nodes = {};
   }
-  trees.shrink_to_fit();
-  state.hasGuide = !trees.empty();
-  state.density.assign(std::move(trees), std::move(nodes));
+  for (FrozenLeaf& leaf : frozen) next.leaves.push_back(std::move(leaf.next));
+  next.trees.shrink_to_fit();
 }
 
 /// How often each leaf is halved: until its share of the samples falls below the threshold of the coming iteration,
-/// which has twice the passes [Müller et al. 2017, Sec. 3.3].
+/// which has twice the passes [Müller et al. 2017, Sec. 3.3], and never below one sample.
 std::vector<int> splitLevels(const Field::State& state, double spp) {
-  const double threshold = state.settings.sTreeThreshold * std::sqrt(2 * spp / 4);
+  const double threshold = std::max(1.0, state.settings.sTreeThreshold * std::sqrt(2 * spp / 4));
   std::vector<int> levels(state.leaves.size(), 0);
   for (std::size_t leaf = 0; leaf < levels.size(); ++leaf)
     for (double count = double(state.leaves[leaf].sampleCount);
@@ -73,33 +96,64 @@ std::vector<int> splitLevels(const Field::State& state, double spp) {
   return levels;
 }
 
-void splitLeaves(Field::State& state, double spp) {
-  const std::size_t cap = state.settings.maxMemoryBytes;
-  if (cap > 0 && state.memoryBytes() >= cap) {
-    state.memoryCapReached = true;
-    return;
+/// Bytes that the splits add: each new leaf copies its origin's quadtree now and gets a density of its own next time.
+double bytesOfSplits(const NextState& next, const std::vector<int>& levels) {
+  double bytes = 0;
+  for (std::size_t leaf = 0; leaf < levels.size(); ++leaf) {
+    const std::uint32_t tree = next.densityOfLeaf[leaf];
+    const std::size_t ofDensity =
+        tree == GuidingDensity::kNoGuide
+            ? 0
+            : sizeof(GuidingDensity::Tree) + next.trees[tree].nodeCount * sizeof(GuidingDensity::Node);
+    const double ofEach = double(next.leaves[leaf].memoryBytes() + ofDensity + 3 * sizeof(std::uint32_t));
+    bytes += (std::exp2(levels[leaf]) - 1) * ofEach;
   }
-  const std::vector<std::uint32_t> origin = state.tree.split(splitLevels(state, spp));
-  const std::size_t before = state.leaves.size();
-  state.leaves.resize(origin.size());
-  state.densityOfLeaf.resize(origin.size());
+  return bytes;
+}
+
+/// Takes back levels of splitting, everywhere alike, until the field stays below its cap as far as can be foreseen.
+void respectMemoryCap(NextState& next, std::size_t cap, std::vector<int>& levels) {
+  if (cap == 0) return;
+  const double bytes = double(next.memoryBytes());
+  while (bytes + bytesOfSplits(next, levels) > double(cap) && *std::max_element(levels.begin(), levels.end()) > 0) {
+    next.memoryCapReached = true;
+    for (int& level : levels) level = std::max(0, level - 1);
+  }
+}
+
+void splitLeaves(NextState& next, const std::vector<int>& levels) {
+  const std::vector<std::uint32_t> origin = next.tree.split(levels);
+  const std::size_t before = next.leaves.size();
+  next.leaves.resize(origin.size());
+  next.densityOfLeaf.resize(origin.size());
   for (std::size_t leaf = before; leaf < origin.size(); ++leaf) {
-    state.leaves[leaf] = state.leaves[origin[leaf]];
-    state.densityOfLeaf[leaf] = state.densityOfLeaf[origin[leaf]];
+    next.leaves[leaf] = next.leaves[origin[leaf]];
+    next.densityOfLeaf[leaf] = next.densityOfLeaf[origin[leaf]];
   }
+}
+
+void become(Field::State& state, NextState&& next) noexcept {
+  state.tree = std::move(next.tree);
+  state.leaves = std::move(next.leaves);
+  state.densityOfLeaf = std::move(next.densityOfLeaf);
+  state.density.assign(std::move(next.trees), std::move(next.nodes));
+  state.hasGuide = !state.density.trees().empty();
+  state.memoryCapReached |= next.memoryCapReached;
+  ++state.iterations;
 }
 
 }  // namespace
 
 void endIteration(Field::State& state, double spp) {
   std::vector<FrozenLeaf> frozen(state.leaves.size());
-  tbb::parallel_for(std::size_t(0), frozen.size(),
-                    [&](std::size_t leaf) { frozen[leaf] = freezeLeaf(state.leaves[leaf], state.settings); });
-  publish(state, frozen);
-  for (std::size_t leaf = 0; leaf < frozen.size(); ++leaf) state.leaves[leaf].building = std::move(frozen[leaf].next);
-  splitLeaves(state, spp);
-  for (SpatialLeaf& leaf : state.leaves) leaf.sampleCount = 0;
-  ++state.iterations;
+  parallelFor(frozen.size(), 1,
+              [&](std::size_t leaf) { frozen[leaf] = freezeLeaf(state.leaves[leaf], state.settings); });
+  NextState next(state.tree);
+  publish(next, frozen);
+  std::vector<int> levels = splitLevels(state, spp);
+  respectMemoryCap(next, state.settings.maxMemoryBytes, levels);
+  splitLeaves(next, levels);
+  become(state, std::move(next));
 }
 
 }  // namespace guiding

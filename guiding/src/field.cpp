@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 
 #include "bind_grid.h"
 #include "field_state.h"
+#include "library_edge.h"
 #include "training.h"
 #include "validate.h"
 
@@ -24,22 +24,33 @@ Field::Field(Field&&) noexcept = default;
 Field& Field::operator=(Field&&) noexcept = default;
 Field::~Field() = default;
 
-Result<Field> Field::create(const Imath::Box3f& bounds, const FieldSettings& settings) {
-  const Status valid = settings.validate();
-  if (!valid) return valid.error();
-  if (!areUsableBounds(bounds)) return Error{ErrorCode::InvalidArgument, "the field's bounds are empty or not finite"};
-  return Field(std::make_unique<State>(bounds, settings));
+Result<Field> Field::create(const Imath::Box3f& bounds, const FieldSettings& settings) noexcept {
+  return withoutThrowing([&]() -> Result<Field> {
+    const Status valid = settings.validate();
+    if (!valid) return valid.error();
+    if (!areUsableBounds(bounds))
+      return Error{ErrorCode::InvalidArgument, "the field's bounds are empty or not finite"};
+    return Field(std::make_unique<State>(bounds, settings));
+  });
 }
 
-void Field::accumulate(std::span<const SampleBuffer> buffers) {
-  guiding::accumulate(*m_state, buffers);
+Status Field::accumulate(std::span<const SampleBuffer> buffers) noexcept {
+  return withoutThrowing([&]() -> Status {
+    guiding::accumulate(*m_state, buffers);
+    return Success{};
+  });
 }
 
-void Field::endIteration(double spp) {
-  guiding::endIteration(*m_state, spp);
+Status Field::endIteration(double spp) noexcept {
+  return withoutThrowing([&]() -> Status {
+    if (!(spp > 0 && std::isfinite(spp)))
+      return Error{ErrorCode::InvalidArgument, "the samples per pixel of an iteration must be positive and finite"};
+    guiding::endIteration(*m_state, spp);
 #ifdef GUIDING_VALIDATE
-  if (const Status status = validate(); !status) std::terminate();
+    if (const Status status = validate(); !status) std::terminate();
 #endif
+    return Success{};
+  });
 }
 
 GuidingDistribution Field::bind(const Imath::V3f& position) const noexcept {
@@ -77,18 +88,17 @@ const FieldSettings& Field::settings() const noexcept {
 const Imath::Box3f& Field::bounds() const noexcept {
   return m_state->bounds;
 }
-Status Field::validate() const {
-  return validateState(*m_state);
+Status Field::validate() const noexcept {
+  return withoutThrowing([&] { return validateState(*m_state); });
 }
 
-std::size_t Field::State::memoryBytes() const {
-  std::size_t bytes = tree.memoryBytes() + density.memoryBytes() + leaves.capacity() * sizeof(SpatialLeaf) +
-                      densityOfLeaf.capacity() * sizeof(std::uint32_t);
-  for (const SpatialLeaf& leaf : leaves) bytes += leaf.building.memoryBytes();
+std::size_t Field::State::memoryBytes() const noexcept {
+  std::size_t bytes = tree.memoryBytes() + density.memoryBytes() + densityOfLeaf.capacity() * sizeof(std::uint32_t);
+  for (const SpatialLeaf& leaf : leaves) bytes += leaf.memoryBytes();
   return bytes;
 }
 
-FieldStats Field::stats() const {
+FieldStats Field::stats() const noexcept {
   const State& s = *m_state;
   FieldStats stats;
   stats.iterations = s.iterations;

@@ -18,6 +18,8 @@ struct SpatialLeaf {
   float fraction = 0.5f;          ///< bsdfSamplingFraction of the frozen density
   AdamFraction adam;              ///< with FractionMode::Adam
   FractionSlopes slopes;          ///< with FractionMode::Fit; of this iteration
+
+  std::size_t memoryBytes() const noexcept { return sizeof(*this) + building.memoryBytes(); }
 };
 
 struct Field::State {
@@ -39,7 +41,7 @@ struct Field::State {
   bool memoryCapReached = false;
   bool hasGuide = false;
 
-  std::size_t memoryBytes() const;
+  std::size_t memoryBytes() const noexcept;
 };
 
 /// Finite and not inverted.

@@ -79,17 +79,18 @@ DirectionSample GuidingDensity::sample(std::uint32_t index, const Grid& grid, co
   return {wi, density};
 }
 
-int GuidingDensity::maxDepth(std::uint32_t index) const {
+int GuidingDensity::maxDepth(std::uint32_t index) const noexcept {
   const Tree& tree = m_trees[index];
-  std::vector<int> depth(tree.nodeCount, Grid::kDepth + 1);
-  int deepest = Grid::kDepth;
-  for (std::uint32_t i = 0; i < tree.nodeCount; ++i) {
-    const QuadtreeLinks links = m_nodes[tree.firstNode + i].links;
-    deepest = std::max(deepest, depth[i]);
-    for (int c = 0; c < 4; ++c)
-      if (!links.isLeaf(c)) depth[links.childIndex(c)] = depth[i] + 1;
+  const Node* nodes = m_nodes.data() + tree.firstNode;
+  int depth = Grid::kDepth;
+  // Nodes stand level by level.
+  for (std::uint32_t begin = 0, end = std::uint32_t(std::popcount(tree.subdivided)); begin < end; ++depth) {
+    std::uint32_t children = 0;
+    for (std::uint32_t i = begin; i < end; ++i) children += std::uint32_t(std::popcount(nodes[i].links.mask));
+    begin = end;
+    end += children;
   }
-  return deepest;
+  return depth;
 }
 
 }  // namespace guiding

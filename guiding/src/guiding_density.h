@@ -71,10 +71,10 @@ class GuidingDensity {
     return m_nodes.capacity() * sizeof(Node) + m_trees.capacity() * sizeof(Tree);
   }
   /// Depth of the deepest cell of a tree; the grid alone is Grid::kDepth.
-  int maxDepth(std::uint32_t index) const;
+  int maxDepth(std::uint32_t index) const noexcept;
 
   /// Takes over trees and nodes that have been laid out already.
-  void assign(std::vector<Tree> trees, std::vector<Node> nodes) {
+  void assign(std::vector<Tree> trees, std::vector<Node> nodes) noexcept {
     m_trees = std::move(trees);
     m_nodes = std::move(nodes);
   }

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <cstdint>
 #include <vector>
 
+#include "parallel.h"
 #include "sample_sequence.h"
 
 namespace guiding {
@@ -27,7 +26,7 @@ inline constexpr std::uint32_t kNoLeaf = ~0u;
 /// A counting sort over runs of consecutive samples. Runs are cut by the number of samples alone and the sort is
 /// stable, so the outcome does not depend on the number of threads.
 template <class Item, class LeafOf, class ItemOf>
-LeafPartition<Item> partitionByLeaf(const SampleSequence& samples, std::size_t leafCount, LeafOf&& leafOf,
+LeafPartition<Item> partitionByLeaf(const SampleRange& samples, std::size_t leafCount, LeafOf&& leafOf,
                                     ItemOf&& itemOf) {
   constexpr std::size_t kShortestRun = 1 << 14, kMostRuns = 32;
   const std::size_t length = std::max(kShortestRun, (samples.size() + kMostRuns - 1) / kMostRuns);
@@ -39,7 +38,7 @@ LeafPartition<Item> partitionByLeaf(const SampleSequence& samples, std::size_t l
   // Per run and leaf: first how many items, then where the next one goes.
   std::vector<std::vector<std::size_t>> slot(runs, std::vector<std::size_t>(leafCount, 0));
   std::vector<std::uint32_t> leaf(samples.size());
-  tbb::parallel_for(std::size_t(0), runs, [&](std::size_t run) {
+  parallelFor(runs, 1, [&](std::size_t run) {
     forEachOfRun(run, [&](std::size_t i, const RadianceSample& sample) {
       leaf[i] = leafOf(sample);
       if (leaf[i] != kNoLeaf) ++slot[run][leaf[i]];
@@ -60,7 +59,7 @@ LeafPartition<Item> partitionByLeaf(const SampleSequence& samples, std::size_t l
   partition.begin[leafCount] = position;
 
   partition.items.resize(position);
-  tbb::parallel_for(std::size_t(0), runs, [&](std::size_t run) {
+  parallelFor(runs, 1, [&](std::size_t run) {
     forEachOfRun(run, [&](std::size_t i, const RadianceSample& sample) {
       if (leaf[i] != kNoLeaf) partition.items[slot[run][leaf[i]]++] = itemOf(sample);
     });

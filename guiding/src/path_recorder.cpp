@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "grow.h"
+
 namespace guiding {
 
 namespace {
@@ -11,7 +13,16 @@ float mean(const Imath::V3f& c) noexcept {
 }
 }  // namespace
 
-void PathRecorder::finish(SampleBuffer& out) {
+bool PathRecorder::grow() noexcept {
+  return growVector(m_vertices);
+}
+
+void PathRecorder::finish(SampleBuffer& out) noexcept {
+  if (m_lost > 0) {  // what was recorded after the loss belongs to vertices that are not there
+    out.addLost(m_vertices.size() + m_lost);
+    begin();
+    return;
+  }
   // Radiance that arrives along a vertex' ray: what its end emits, plus what its end scatters on, divided by the chance
   // that the path was allowed to find that out. From the end of the path to its start [Müller et al. 2017, Sec. 3,
   // without their division].

@@ -34,4 +34,24 @@ class SampleSequence {
   std::vector<std::size_t> m_begin;  ///< index of each buffer's first sample, then the total
 };
 
+/// Consecutive samples of a sequence.
+class SampleRange {
+ public:
+  SampleRange(const SampleSequence& sequence, std::size_t begin, std::size_t end)
+      : m_sequence(sequence), m_begin(begin), m_end(end) {}
+
+  std::size_t size() const noexcept { return m_end - m_begin; }
+
+  /// Calls visit(index, sample) for the samples with index in [begin, end) of this range, in order.
+  template <class Visit>
+  void forEach(std::size_t begin, std::size_t end, Visit&& visit) const {
+    m_sequence.forEach(m_begin + begin, m_begin + end,
+                       [&](std::size_t i, const RadianceSample& sample) { visit(i - m_begin, sample); });
+  }
+
+ private:
+  const SampleSequence& m_sequence;
+  std::size_t m_begin, m_end;
+};
+
 }  // namespace guiding

@@ -6,6 +6,11 @@ namespace {
 Error outOfRange(const char* text) {
   return {ErrorCode::InvalidArgument, text};
 }
+
+template <class Enum>
+bool isOneOf(Enum value, Enum last) {
+  return int(value) >= 0 && int(value) <= int(last);
+}
 }  // namespace
 
 FieldSettings FieldSettings::production2019() {
@@ -27,6 +32,15 @@ FieldSettings FieldSettings::recommended() {
 }
 
 Status FieldSettings::validate() const {
+  if (!isOneOf(directionMap, DirectionMap::Octahedral)) return outOfRange("directionMap is not one of its values");
+  if (!isOneOf(spatialFilter, SpatialFilter::StochasticBox))
+    return outOfRange("spatialFilter is not one of its values");
+  if (!isOneOf(directionalFilter, DirectionalFilter::Box))
+    return outOfRange("directionalFilter is not one of its values");
+  if (!isOneOf(fractionMode, FractionMode::Fit)) return outOfRange("fractionMode is not one of its values");
+  if (!isOneOf(fractionLoss, FractionLoss::Variance)) return outOfRange("fractionLoss is not one of its values");
+  if (!isOneOf(compensation.form, CompensationForm::ClipRenormalise))
+    return outOfRange("compensation.form is not one of its values");
   // Negated comparisons, so that NaN fails too.
   if (!(sTreeThreshold >= 1)) return outOfRange("sTreeThreshold must be at least 1");
   if (!(dTreeThreshold > 0 && dTreeThreshold < 1)) return outOfRange("dTreeThreshold must lie in (0, 1)");

@@ -24,16 +24,9 @@ Imath::V3f SpatialTree::leafSizeAt(const Imath::V3f& position) const noexcept {
   return size;
 }
 
-int SpatialTree::maxDepth() const noexcept {
-  // Children stand behind their parent, so one forward sweep knows each node's depth.
-  std::vector<int> depth(m_nodes.size(), 0);
-  int deepest = 0;
-  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
-    deepest = std::max(deepest, depth[i]);
-    if (m_nodes[i] & kLeafBit) continue;
-    depth[m_nodes[i]] = depth[m_nodes[i] + 1] = depth[i] + 1;
-  }
-  return deepest;
+int SpatialTree::depthBelow(std::uint32_t node) const noexcept {
+  const std::uint32_t word = m_nodes[node];
+  return word & kLeafBit ? 0 : 1 + std::max(depthBelow(word), depthBelow(word + 1));
 }
 
 std::vector<std::uint32_t> SpatialTree::split(const std::vector<int>& levels) {

@@ -38,7 +38,7 @@ class SpatialTree {
 
   std::uint32_t leafCount() const noexcept { return m_leafCount; }
   std::size_t memoryBytes() const noexcept { return m_nodes.capacity() * sizeof(std::uint32_t); }
-  int maxDepth() const noexcept;
+  int maxDepth() const noexcept { return depthBelow(0); }
 
   /// Replaces every leaf i by 2^levels[i] leaves. Returns for each new leaf the old leaf it came from; the first child
   /// of a split leaf keeps its index.
@@ -53,6 +53,7 @@ class SpatialTree {
 
  private:
   std::uint64_t codeOf(const Imath::V3f& position) const noexcept;
+  int depthBelow(std::uint32_t node) const noexcept;
 
   Imath::Box3f m_bounds;
   float m_scale;  ///< cells per unit length at full depth

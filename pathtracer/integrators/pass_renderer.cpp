@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "core/error.h"
 #include "film/pixel_filter.h"
 #include "integrators/render_clock.h"
 
@@ -68,7 +69,10 @@ void PassRenderer::learn(guiding::Field& field, std::size_t buffers) {
   m_peakRecordBytes = std::max(m_peakRecordBytes, bytes);
 
   const RenderClock clock;
-  m_workers.execute([&] { field.accumulate(std::span(m_records).first(buffers)); });
+  m_workers.execute([&] {
+    if (const auto status = field.accumulate(std::span(m_records).first(buffers)); !status)
+      throw WorkError("learning from the paths failed: " + status.error().text);
+  });
   m_trainSeconds += clock.seconds();
 }
 

@@ -154,7 +154,10 @@ void RenderRun::closeIteration(const guiding::IterationPlan& plan) {
 }
 
 void RenderRun::endFieldIteration() {
-  m_passes.workers().execute([this] { m_field->endIteration(double(m_sppOfIteration)); });
+  m_passes.workers().execute([this] {
+    if (const auto status = m_field->endIteration(double(m_sppOfIteration)); !status)
+      throw WorkError("refining the guiding field failed: " + status.error().text);
+  });
   const double now = m_clock.seconds();
   m_iterations.back().freezeSeconds = now - m_iterationStart;
   m_iterations.back().seconds += now - m_iterationStart;

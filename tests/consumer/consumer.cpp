@@ -60,8 +60,8 @@ int main() {
   auto field = guiding::Field::create(Imath::Box3f({0, 0, 0}, {1, 1, 1}), guiding::FieldSettings::mueller2017());
   if (!field) return fail(field.error().text.c_str());
   for (int iteration = 0; iteration < 4; ++iteration) {
-    field.value().accumulate(recordSamples(rng, 20000));
-    field.value().endIteration(4);
+    if (!field.value().accumulate(recordSamples(rng, 20000)) || !field.value().endIteration(4))
+      return fail("training failed");
   }
   if (const auto status = field.value().validate(); !status) return fail(status.error().text.c_str());
 

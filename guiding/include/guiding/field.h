@@ -22,25 +22,29 @@ namespace guiding {
 /// learned into the density that bind() offers during the next iteration and refines the tree. bind() and everything on
 /// a GuidingDistribution is lock-free and may be called from any thread, but not during endIteration(). accumulate()
 /// and endIteration() are called by one thread at a time; they spread their work over the caller's oneTBB task arena
-/// and give the same bits on any number of threads. Several fields may live side by side.
+/// and give the same bits on any number of threads. Several fields may live side by side. A field that was moved from
+/// may only be assigned to or destroyed.
 class Field {
  public:
   struct State;  ///< private to the library
 
-  /// A field over `bounds` (world space; enlarged to a cube). Fails on an empty or non-finite box or invalid settings.
-  static Result<Field> create(const Imath::Box3f& bounds, const FieldSettings& settings);
+  /// A field over `bounds` (world space; enlarged to a cube from its lower corner). Fails on an empty or non-finite box
+  /// or invalid settings.
+  static Result<Field> create(const Imath::Box3f& bounds, const FieldSettings& settings) noexcept;
 
   Field(Field&&) noexcept;
   Field& operator=(Field&&) noexcept;
   ~Field();
 
-  /// Learns from the buffers, in their order. Bad samples are dropped and counted. Does not touch what bind() offers.
-  void accumulate(std::span<const SampleBuffer> buffers);
-  void accumulate(const SampleBuffer& buffer) { accumulate(std::span(&buffer, 1)); }
+  /// Learns from the buffers, in their order; whether they come in one call or in several makes no difference. Bad
+  /// samples are dropped and counted. Does not touch what bind() offers. OutOfMemory: the buffers were not learned, or
+  /// only in part; the field is sound and may go on.
+  Status accumulate(std::span<const SampleBuffer> buffers) noexcept;
+  Status accumulate(const SampleBuffer& buffer) noexcept { return accumulate(std::span(&buffer, 1)); }
 
-  /// Ends an iteration of `spp` samples per pixel (which scales the split threshold): freezes, compensates, refines.
-  /// Invalidates every GuidingDistribution.
-  void endIteration(double spp);
+  /// Ends an iteration of `spp` samples per pixel (> 0, finite; it scales the split threshold): freezes, compensates,
+  /// refines. Invalidates every GuidingDistribution. On an error the field is as it was.
+  Status endIteration(double spp) noexcept;
 
   /// The density at a point, world space; "no guide" before the first iteration has ended and where nothing was
   /// learned.
@@ -55,11 +59,11 @@ class Field {
 
   const FieldSettings& settings() const noexcept;
   const Imath::Box3f& bounds() const noexcept;
-  FieldStats stats() const;
+  FieldStats stats() const noexcept;
 
   /// Walks every tree: masses finite and >= 0, parents the sum of children, densities integrate to 1, indices in range.
   /// The error names the first violation.
-  Status validate() const;
+  Status validate() const noexcept;
 
  private:
   explicit Field(std::unique_ptr<State> state) noexcept;

@@ -19,7 +19,10 @@ namespace guiding {
 /// path went on, survived(); at the end finish().
 class PathRecorder {
  public:
-  void begin() noexcept { m_vertices.clear(); }
+  void begin() noexcept {
+    m_vertices.clear();
+    m_lost = 0;
+  }
 
   /// One scattering event.
   struct Scatter {
@@ -32,8 +35,11 @@ class PathRecorder {
     float guidePdf = 0;    ///< the guide's density of wi, per solid angle; 0 without a guide
     bool isDelta = false;  ///< delta events carry radiance on but are not learned from
   };
-  void scatter(const Scatter& event) {
-    m_vertices.push_back({event, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 1.0f, kNoDistance});
+  void scatter(const Scatter& event) noexcept {
+    if (m_vertices.size() < m_vertices.capacity() || grow())
+      m_vertices.push_back({event, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 1.0f, kNoDistance});
+    else
+      ++m_lost;
   }
 
   /// Light sampled at the vertex that the last scatter() reached (or, before any scatter, at the first vertex, which no
@@ -57,8 +63,9 @@ class PathRecorder {
     if (!m_vertices.empty()) m_vertices.back().survivalProbability *= probability;
   }
 
-  /// Appends one sample for each event that is not a delta event, first vertex first.
-  void finish(SampleBuffer& out);
+  /// Appends one sample for each event that is not a delta event, first vertex first, and forgets the path. A path that
+  /// outgrew the memory yields no sample; `out` counts them as lost.
+  void finish(SampleBuffer& out) noexcept;
 
  private:
   static constexpr float kNoDistance = -1;
@@ -71,7 +78,10 @@ class PathRecorder {
     float survivalProbability;
     float distance;
   };
+  bool grow() noexcept;
+
   std::vector<Vertex> m_vertices;
+  std::size_t m_lost = 0;  ///< vertices for which there was no memory
 };
 
 }  // namespace guiding

@@ -24,14 +24,30 @@ struct RadianceSample {
 /// Samples of one tile in the order in which its paths were traced. Keeps its memory between uses.
 class SampleBuffer {
  public:
-  void clear() noexcept { m_samples.clear(); }
-  void reserve(std::size_t count) { m_samples.reserve(count); }
-  void add(const RadianceSample& sample) { m_samples.push_back(sample); }
+  void clear() noexcept {
+    m_samples.clear();
+    m_lost = 0;
+  }
+  /// Makes room ahead of time. Where there is none, add() will tell.
+  void reserve(std::size_t count) noexcept;
+  void add(const RadianceSample& sample) noexcept {
+    if (m_samples.size() < m_samples.capacity() || grow())
+      m_samples.push_back(sample);
+    else
+      ++m_lost;
+  }
   std::size_t size() const noexcept { return m_samples.size(); }
   std::span<const RadianceSample> samples() const noexcept { return m_samples; }
 
+  /// Samples for which there was no memory; a field counts them as dropped.
+  std::size_t lost() const noexcept { return m_lost; }
+  void addLost(std::size_t count) noexcept { m_lost += count; }
+
  private:
+  bool grow() noexcept;
+
   std::vector<RadianceSample> m_samples;
+  std::size_t m_lost = 0;
 };
 
 }  // namespace guiding

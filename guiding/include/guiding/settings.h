@@ -56,10 +56,12 @@ enum class FractionLoss {
 struct FieldSettings {
   DirectionMap directionMap = DirectionMap::Cylinder;
 
-  /// A spatial leaf splits when its samples of the last iteration exceed
-  /// sTreeThreshold * sqrt(passes of that iteration * samples per pass / 4). Range: >= 1.
+  /// After an iteration of n samples per pixel, a spatial leaf is halved until its share of that iteration's samples is
+  /// at most sTreeThreshold * sqrt(2 n / 4): the coming iteration has twice the samples [Müller et al. 2017, Sec. 3.3].
+  /// Range: >= 1.
   double sTreeThreshold = 12000.0;
-  /// Refinement of the spatial tree stops (and stats() says so) once the field holds this many bytes. 0: no cap.
+  /// The spatial tree is not refined (and stats() says so) where that would take the field above this many bytes, as
+  /// far as can be foreseen. The quadtrees are not held back. 0: no cap.
   std::size_t maxMemoryBytes = 0;
 
   /// A quadtree cell is subdivided when it holds more than this share of the leaf's flux. Range: (0, 1).

@@ -7,10 +7,12 @@ namespace guiding {
 
 /// What a field holds and what it was fed. All counts since the field was made.
 struct FieldStats {
-  int iterations = 0;                ///< endIteration() calls
-  std::uint64_t samples = 0;         ///< accepted
-  std::uint64_t droppedSamples = 0;  ///< refused: non-finite or negative numbers, or pdf not > 0
-  std::uint64_t outsideSamples = 0;  ///< positions outside the bounds; learned in the nearest leaf
+  int iterations = 0;         ///< endIteration() calls
+  std::uint64_t samples = 0;  ///< accepted
+  /// Refused: non-finite position, direction not of unit length (to 0.5 %), radiance or pdf not finite or negative, pdf
+  /// 0; and those that SampleBuffer had no memory for.
+  std::uint64_t droppedSamples = 0;
+  std::uint64_t outsideSamples = 0;  ///< positions outside the cube over the bounds; learned in the nearest leaf
   std::size_t spatialLeaves = 0;
   std::size_t guidedLeaves = 0;  ///< leaves whose frozen density can be sampled
   int maxSpatialDepth = 0;
@@ -19,7 +21,7 @@ struct FieldStats {
   double meanQuadtreeDepth = 0;   ///< mean over leaves of the deepest cell
   double compensatedArea = 0;     ///< mean share of the sphere that compensation emptied, over guided leaves
   std::size_t memoryBytes = 0;    ///< heap bytes of tree and density
-  bool memoryCapReached = false;  ///< refinement of the spatial tree was held back by maxMemoryBytes
+  bool memoryCapReached = false;  ///< refinement of the spatial tree was held back by maxMemoryBytes at least once
 };
 
 }  // namespace guiding
