@@ -1,6 +1,7 @@
 #include "loaders/file_search.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -28,6 +29,12 @@ std::optional<std::filesystem::path> FileSearch::find(const std::string& name) c
     if (std::filesystem::is_regular_file(candidate, ignored)) return candidate;
   }
   return std::nullopt;
+}
+
+std::string lowerCaseEnding(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
 }
 
 std::string readTextFile(const std::filesystem::path& file) {

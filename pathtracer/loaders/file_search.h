@@ -21,6 +21,9 @@ class FileSearch {
   std::vector<std::filesystem::path> m_folders;
 };
 
+/// ".obj" for "Table.OBJ".
+std::string lowerCaseEnding(const std::filesystem::path& file);
+
 /// The whole file. Throws InputError, naming it, for a file that is missing, a directory or unreadable.
 std::string readTextFile(const std::filesystem::path& file);
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "loaders/file_search.h"
+#include "loaders/json_scene.h"
 #include "loaders/mitsuba_scene.h"
 
 namespace pt {
@@ -19,10 +21,15 @@ std::string displayName(const std::filesystem::path& file) {
 }  // namespace
 
 SceneDescription loadScene(const std::filesystem::path& file, const LoadOptions& options) {
-  const std::string ending = file.extension().string();
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    throw InputError(file.string() + ": is a directory, not a scene file");
+  const std::string ending = lowerCaseEnding(file);
   SceneDescription scene;
   if (ending == ".xml") {
     scene = loadMitsubaScene(file, options);
+  } else if (ending == ".json") {
+    scene = loadJsonScene(file, options);
   } else {
     throw InputError(
         fmt::format("{}: unknown kind of scene; .json (ours) and .xml (Mitsuba) are known", file.string()));

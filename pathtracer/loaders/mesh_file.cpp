@@ -6,10 +6,10 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <assimp/Importer.hpp>
 
 #include "core/error.h"
+#include "loaders/file_search.h"
 #include "loaders/mesh_join.h"
 #include "loaders/mesh_normals.h"
 
@@ -97,8 +97,7 @@ void leaveOutUnused(Assimp::Importer& importer) {
 }  // namespace
 
 bool isMeshFile(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = lowerCaseEnding(file);
   return ending == ".obj" || ending == ".ply" || ending == ".gltf" || ending == ".glb";
 }
 

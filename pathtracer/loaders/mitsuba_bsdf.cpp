@@ -5,6 +5,7 @@
 #include "core/near_name.h"
 #include "loaders/mitsuba_parts.h"
 #include "loaders/refraction_index.h"
+#include "materials/conductor_presets.h"
 
 namespace pt::mitsuba {
 namespace {
@@ -49,8 +50,12 @@ ConductorMaterial readConductorBase(Context& context, Reader& reader) {
   const std::string preset = reader.string("material", context.isOld() && !hasIndex ? "Cu" : "none");
   if (hasIndex && preset != "none") reader.fail("material", "excludes eta and k: give one or the other");
   if (preset != "none") {
-    throw UnsupportedError(reader.object().source,
-                           fmt::format("the conductor '{}' is not known; give eta and k", preset));
+    const auto found = findConductorPreset(preset);
+    if (!found)
+      throw UnsupportedError(reader.object().source,
+                             fmt::format("the conductor '{}' is not known (give eta and k instead)", preset));
+    conductor.eta = found->eta;
+    conductor.k = found->k;
   }
   // Mitsuba 0.x leaves a missing half of the pair to copper; here as in Mitsuba 3 it is 0 + 1i.
   conductor.eta = reader.color("eta", conductor.eta);

@@ -1,0 +1,165 @@
+// Shapes, emitters, sensor, film, sampler and integrator of Mitsuba files.
+#include "loader_fixture.h"
+
+using namespace pt;
+using namespace pt::test;
+
+namespace {
+
+SceneDescription load(const std::string& content, const std::string& version = "3.0.0") {
+  SceneFolder folder;
+  return folder.load("a.xml", mitsubaScene(content, version));
+}
+
+}  // namespace
+
+TEST_CASE("an empty scene has Mitsuba's defaults where ours differ") {
+  const auto scene = load("<sensor type=\"perspective\"/>");
+  REQUIRE(scene.camera);
+  CHECK(scene.camera->nearClip == 1e-2f);
+  CHECK(scene.camera->farClip == 1e4f);
+  CHECK(scene.camera->fovAxis == FovAxis::Diagonal);  // 50 mm on 35 mm film
+  CHECK(scene.camera->fovDegrees == Approx(46.793).margin(1e-2));
+  CHECK(scene.integrator.maxDepth == -1);
+  CHECK(scene.integrator.rrDepth == 5);
+  const auto film = load(R"(<sensor type="perspective"><film type="hdrfilm"/><sampler type="independent"/></sensor>)");
+  CHECK(film.film.width == 768);
+  CHECK(film.film.height == 576);
+  CHECK(film.film.filter == ReconstructionFilter::Gaussian);
+  CHECK(film.spp == 4);
+}
+
+TEST_CASE("sensor, film, filter and sampler in both spellings") {
+  const std::string old =
+      R"(<sensor type="perspective"><string name="fovAxis" value="smaller"/><float name="nearClip" value="10"/>
+    <float name="farClip" value="2800"/><float name="focusDistance" value="1000"/><float name="fov" value="39"/>
+    <transform name="toWorld"><translate z="-3"/></transform>
+    <sampler type="sobol"><integer name="sampleCount" value="128"/><integer name="seed" value="7"/></sampler>
+    <film type="hdrfilm"><integer name="width" value="320"/><integer name="height" value="200"/><boolean name="banner" value="false"/>
+    <string name="pixelFormat" value="rgb"/><rfilter type="box"/></film></sensor>)";
+  std::string modern = old;
+  const std::pair<std::string, std::string> renamed[] = {
+      {"fovAxis", "fov_axis"},        {"nearClip", "near_clip"},
+      {"farClip", "far_clip"},        {"focusDistance", "focus_distance"},
+      {"toWorld", "to_world"},        {"sampleCount", "sample_count"},
+      {"pixelFormat", "pixel_format"}};
+  for (const auto& [from, to] : renamed) modern.replace(modern.find(from), from.size(), to);
+  for (const auto& scene : {load(old, "0.5.0"), load(modern, "3.0.0"), load(old, "3.0.0")}) {
+    CHECK(scene.camera->fovAxis == FovAxis::Smaller);
+    CHECK(scene.camera->fovDegrees == 39);
+    CHECK(scene.camera->nearClip == 10);
+    CHECK(scene.camera->farClip == 2800);
+    CHECK(isNear(apply(scene.camera->toWorld, Vec3(0, 0, 0)), Vec3(0, 0, -3)));
+    CHECK(scene.film.width == 320);
+    CHECK(scene.film.height == 200);
+    CHECK(scene.film.filter == ReconstructionFilter::Box);
+    CHECK(scene.sampler == SamplerKind::Sobol);
+    CHECK(scene.spp == 128);
+    CHECK(scene.notes.empty());
+  }
+  const auto other = load(
+      R"(<sensor type="perspective"><sampler type="halton"/><film type="ldrfilm"><rfilter type="tent"/></film></sensor>)");
+  CHECK(other.sampler == SamplerKind::Sobol);
+  CHECK(other.notes.size() == 1);
+  CHECK(other.film.filter == ReconstructionFilter::Tent);
+}
+
+TEST_CASE("integrators: path, its relatives, direct light, wrappers") {
+  const auto path =
+      load(R"(<integrator type="path"><integer name="maxDepth" value="10"/><integer name="rrDepth" value="7"/>
+    <boolean name="strictNormals" value="true"/><boolean name="hideEmitters" value="true"/></integrator>)",
+           "0.6.0");
+  CHECK(path.integrator.maxDepth == 10);
+  CHECK(path.integrator.rrDepth == 7);
+  CHECK(path.integrator.strictNormals);
+  CHECK(path.integrator.hideEmitters);
+  CHECK(path.notes.empty());
+
+  const auto guided = load(
+      R"(<integrator type="guided_path"><integer name="maxDepth" value="10"/><string name="budgetType" value="spp"/></integrator>)",
+      "0.5.0");
+  CHECK(guided.integrator.maxDepth == 10);
+  CHECK(guided.notes.size() == 1);
+
+  CHECK(load("<integrator type=\"direct\"/>").integrator.maxDepth == 2);
+  const auto moment = load(
+      R"(<integrator type="moment"><integrator type="path"><integer name="max_depth" value="3"/></integrator></integrator>)");
+  CHECK(moment.integrator.maxDepth == 3);
+  CHECK(moment.notes.size() == 1);
+}
+
+TEST_CASE("lights") {
+  const auto scene = load(
+      R"(<emitter type="point"><point name="position" x="1" y="2" z="3"/><rgb name="intensity" value="300"/></emitter>
+    <emitter type="point"><transform name="to_world"><translate x="5"/></transform></emitter>
+    <emitter type="constant"><rgb name="radiance" value="0.1, 0.2, 0.3"/></emitter>)");
+  REQUIRE(scene.lights.size() == 3);
+  const auto& point = std::get<PointLight>(scene.lights[0].kind);
+  CHECK(isNear(point.position, Vec3(1, 2, 3)));
+  CHECK(point.intensity.x == 300);
+  CHECK(isNear(std::get<PointLight>(scene.lights[1].kind).position, Vec3(5, 0, 0)));
+  CHECK(isNear(std::get<ConstantEnvironment>(scene.lights[2].kind).radiance, Vec3(0.1f, 0.2f, 0.3f)));
+}
+
+TEST_CASE("analytic shapes, their materials and emission") {
+  const auto scene = load(
+      R"(<shape type="sphere" id="ball"><point name="center" value="1, 2, 3"/><float name="radius" value="4"/><boolean name="flip_normals" value="true"/></shape>
+    <shape type="rectangle"><emitter type="area"><rgb name="radiance" value="17, 12, 4"/></emitter></shape>
+    <shape type="disk"><bsdf type="diffuse"/><emitter type="area"/></shape>
+    <shape type="cube"/>)");
+  REQUIRE(scene.shapes.size() == 4);
+  const auto& sphere = std::get<SphereShape>(scene.shapes[0].kind);
+  CHECK(isNear(sphere.center, Vec3(1, 2, 3)));
+  CHECK(sphere.radius == 4);
+  CHECK(scene.shapes[0].name == "ball");
+  CHECK(scene.shapes[0].flipNormals);
+  CHECK(materialAs<DiffuseMaterial>(scene, scene.shapes[0].material).reflectance.value.x == 0.5f);  // Mitsuba's default
+  CHECK(std::holds_alternative<RectangleShape>(scene.shapes[1].kind));
+  CHECK(scene.shapes[1].material == kNone);  // a light without a BSDF reflects nothing
+  CHECK(isNear(scene.shapes[1].emission->value, Vec3(17, 12, 4)));
+  CHECK(scene.shapes[2].material != kNone);
+  CHECK(scene.shapes[2].emission->value.x == 1);
+  CHECK(std::holds_alternative<CubeShape>(scene.shapes[3].kind));
+}
+
+TEST_CASE("instances share their group") {
+  const auto scene =
+      load(R"(<shape type="instance"><ref id="g"/><transform name="to_world"><translate x="1"/></transform></shape>
+    <shape type="shapegroup" id="g"><shape type="sphere"/><shape type="cube"/></shape>
+    <shape type="instance"><ref id="g"/></shape>)");
+  REQUIRE(scene.groups.size() == 1);
+  CHECK(scene.groups[0].shapes.size() == 2);
+  REQUIRE(scene.shapes.size() == 2);
+  CHECK(std::get<InstanceShape>(scene.shapes[0].kind).group == 0);
+  CHECK(std::get<InstanceShape>(scene.shapes[1].kind).group == 0);
+  CHECK(isNear(apply(scene.shapes[0].toWorld, Vec3(0, 0, 0)), Vec3(1, 0, 0)));
+
+  SceneFolder folder;
+  CHECK(folder.errorOf("a.xml", mitsubaScene("<shape type=\"instance\"/>")) ==
+        "a.xml:2: an instance refers to exactly one shapegroup");
+  CHECK(folder.errorOf(
+            "a.xml",
+            mitsubaScene(R"(<shape type="shapegroup"><shape type="sphere"><emitter type="area"/></shape></shape>)")) ==
+        "a.xml:2: a shape that emits light cannot be instanced");
+}
+
+TEST_CASE("meshes of a Mitsuba file: v, face normals, sharing") {
+  SceneFolder folder;
+  folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.25\nvt 1 0.25\nvt 0 1\nf 1/1 2/2 3/3\n");
+  const auto scene =
+      folder.load("a.xml", mitsubaScene(R"(<shape type="obj"><string name="filename" value="m.obj"/></shape>
+    <shape type="obj"><string name="filename" value="m.obj"/></shape>
+    <shape type="obj"><string name="filename" value="m.obj"/><boolean name="faceNormals" value="true"/><boolean name="flipTexCoords" value="false"/></shape>)",
+                                        "0.6.0"));
+  CHECK(meshOf(scene.shapes[0]).uvs.at(0).y == 0.75f);
+  CHECK(meshOf(scene.shapes[0]).normals.size() == 3);
+  CHECK(&meshOf(scene.shapes[0]) == &meshOf(scene.shapes[1]));
+  CHECK(meshOf(scene.shapes[2]).uvs.at(0).y == 0.25f);
+  CHECK(meshOf(scene.shapes[2]).normals.empty());
+  CHECK(std::get<MeshShape>(scene.shapes[2].kind).faceNormals);
+  CHECK(folder.errorOf("b.xml",
+                       mitsubaScene("<shape type=\"obj\">\n<string name=\"filename\" value=\"n.obj\"/></shape>")) ==
+        "b.xml:3: filename of shape 'obj' names a file that does not exist: 'n.obj'");
+  CHECK(folder.errorOf("b.xml", mitsubaScene("<shape type=\"ply\"/>")) ==
+        "b.xml:2: shape 'ply' lacks the property 'filename'");
+}
