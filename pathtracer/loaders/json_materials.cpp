@@ -2,8 +2,8 @@
 
 #include <functional>
 
+#include "core/near_name.h"
 #include "loaders/json_parts.h"
-#include "loaders/near_name.h"
 #include "loaders/refraction_index.h"
 #include "materials/conductor_presets.h"
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/near_name.h"
 #include "loaders/color.h"
 #include "loaders/loader_error.h"
-#include "loaders/near_name.h"
 
 namespace pt::json {
 namespace {

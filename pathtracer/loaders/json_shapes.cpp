@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <functional>
 
+#include "core/near_name.h"
 #include "loaders/json_parts.h"
 #include "loaders/mesh_generate.h"
-#include "loaders/near_name.h"
 
 namespace pt::json {
 namespace {

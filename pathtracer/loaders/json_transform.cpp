@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/near_name.h"
 #include "loaders/json_node.h"
-#include "loaders/near_name.h"
 
 namespace pt::json {
 namespace {

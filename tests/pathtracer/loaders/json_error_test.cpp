@@ -21,7 +21,7 @@ std::string materialError(const std::string& material) {
 }  // namespace
 
 TEST_CASE("JSON: syntax errors have line and column") {
-  CHECK(errorOf("{\n  \"film\": {\"width\": 3,}\n}").starts_with("s.json:2:24: malformed JSON: "));
+  CHECK(errorOf("{\n  \"film\": {\"width\": 3,}\n}").starts_with("s.json:2:23: malformed JSON: "));
   CHECK(errorOf("").starts_with("s.json:1:1: malformed JSON: "));
   CHECK(errorOf("{} {}").starts_with("s.json:1:4: malformed JSON: "));
   CHECK(errorOf("{\"film\":\n {\"width\": 1e999}}") == "s.json:2:12: the number 1e999 is too large");
@@ -146,7 +146,7 @@ TEST_CASE("JSON: shapes, groups and lights that cannot work") {
   folder.write("s.txt", "x");
   CHECK(folder.errorOf("s.json", R"({"shapes": [{"type": "mesh", "file": "s.txt", "emission": 1}]})") ==
         "s.json#/shapes/0/file: 's.txt' is no mesh file; .obj, .ply, .gltf and .glb are");
-  folder.write("empty.obj", "v 0 0 0\n");
+  folder.write("empty.obj", "# nothing but vertices\nv 0 0 0\nv 1 0 0\n");
   CHECK(folder.errorOf("s.json", R"({"shapes": [{"type": "mesh", "file": "empty.obj", "emission": 1}]})") ==
         "s.json#/shapes/0/file: empty.obj: the mesh has no triangles");
 }
