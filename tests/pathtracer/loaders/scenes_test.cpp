@@ -48,6 +48,18 @@ TEST_CASE("bundled scenes load, are lit, and of a size that renders soon") {
   CHECK(found >= 4);
 }
 
+TEST_CASE("the example of the scene format's description loads") {
+  std::ifstream stream(std::filesystem::path(GUIDING_SOURCE_DIR) / "scenes/README.md");
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::string opening = "```json\n";
+  const std::size_t start = text.find(opening);
+  REQUIRE(start != std::string::npos);
+  const std::string example = text.substr(start + opening.size(), text.find("```", start + 3) - start - opening.size());
+  const auto scene = SceneFolder().load("example.json", example);
+  CHECK(scene.shapes.size() == 3);
+  CHECK(emits(scene));
+}
+
 TEST_CASE("shared: cbox, as numbers and as spectra") {
   const auto rgb = loadShared("cbox/cbox-rgb.xml"), spectral = loadShared("cbox/cbox.xml");
   if (!rgb || !spectral) return;
