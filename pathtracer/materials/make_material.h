@@ -12,6 +12,7 @@ namespace pt {
 std::unique_ptr<Material> makeDiffuse(const DiffuseMaterial& description, const Parameters& parameters);
 
 std::unique_ptr<Material> makeConductor(const ConductorMaterial& description, const Parameters& parameters);
+std::unique_ptr<Material> makeRoughConductor(const Metal& metal, const Microfacets& facets);
 
 std::unique_ptr<Material> makeDielectric(const DielectricMaterial& description, const Parameters& parameters);
 std::unique_ptr<Material> makeRoughDielectric(float eta, const BoundaryTints& tints, const Microfacets& facets,

@@ -34,6 +34,13 @@ inline BsdfSample sampleOf(const BsdfEvaluation& evaluation, const Vec3& wi) noe
   return {.wi = wi, .weight = evaluation.bsdfCos / evaluation.pdf, .pdf = evaluation.pdf};
 }
 
+/// Index of refraction eta - ik relative to the exterior, and a factor that is 1 in nature.
+struct Metal {
+  Spectrum eta, k, tint;
+
+  Spectrum reflectance(float cosTheta) const noexcept { return tint * fresnelConductor(cosTheta, eta, k); }
+};
+
 /// Factors on what a dielectric boundary reflects and lets through; 1 in nature.
 struct BoundaryTints {
   Spectrum reflectance{1.0f}, transmittance{1.0f};

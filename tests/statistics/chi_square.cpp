@@ -129,20 +129,21 @@ ChiSquareResult chiSquareOfCounts(const std::vector<double>& observed, const std
   ChiSquareResult result;
   result.level = sidakLevel(settings.significance, settings.tests);
   double pooledObserved = 0, pooledExpected = 0;
-  std::size_t cells = 0;
+  std::size_t cells = 0, pooled = 0;
   const auto addCell = [&](double o, double e) {
     result.statistic += (o - e) * (o - e) / e;
     ++cells;
   };
   for (const std::size_t i : order) {
-    if (expected[i] < kMinExpected || (pooledExpected > 0 && pooledExpected < kMinExpected)) {
+    if (expected[i] < kMinExpected || (pooled > 0 && pooledExpected < kMinExpected)) {
+      ++pooled;
       pooledObserved += observed[i];
       pooledExpected += expected[i];
     } else {
       addCell(observed[i], expected[i]);
     }
   }
-  if (pooledExpected > 0) addCell(pooledObserved, pooledExpected);
+  if (pooled > 0) addCell(pooledObserved, pooledExpected);
   if (cells < 2) return failure(0, "fewer than two cells expect samples: use more samples or more bins");
 
   result.degreesOfFreedom = double(cells - 1);
@@ -166,10 +167,6 @@ ChiSquareResult chiSquareOnPlane(const PlaneSampler& sample, const std::function
   if (histogram.outside > 0) return failure(integral, text("%zu samples lie outside the domain", histogram.outside));
   if (histogram.zeroDensity > 0)
     return failure(integral, text("%zu samples lie where the density is zero", histogram.zeroDensity));
-  for (std::size_t i = 0; i < expected.size(); ++i)
-    if (expected[i] == 0 && histogram.counts[i] > 0)
-      return failure(integral,
-                     text("%.0f samples lie in a bin where the density integrates to zero", histogram.counts[i]));
 
   for (double& e : expected) e *= double(settings.samples);
   expected.push_back(double(settings.samples) * std::max(0.0, 1 - integral));
@@ -194,7 +191,8 @@ ChiSquareResult chiSquareOnSphere(const DirectionSampler& sample, const std::fun
     if (!(std::abs(w->length() - 1) < 1e-4f)) ++notUnit;
     return anglesOf(*w);
   };
-  const auto pdfPlane = [&](const Imath::V2d& p) { return pdf(directionOf(p)) * std::sin(p.y); };
+  // Not zero at the poles, which a sampler may draw.
+  const auto pdfPlane = [&](const Imath::V2d& p) { return pdf(directionOf(p)) * std::max(std::sin(p.y), 1e-12); };
   ChiSquareResult result = chiSquareOnPlane(samplePlane, pdfPlane, {{0, 0}, {2 * kPi, kPi}}, settings);
   if (notUnit > 0) return failure(result.integral, text("%zu sampled directions are not unit vectors", notUnit));
   return result;

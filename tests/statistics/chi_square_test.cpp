@@ -36,6 +36,11 @@ TEST_CASE("Cells that expect fewer than five are pooled") {
   CHECK(result.statistic == Approx(1.0 / 10 + 1.0 / 30));
 }
 
+TEST_CASE("Samples in cells that expect none are not overlooked") {
+  CHECK(!chiSquareOfCounts({300, 50, 50, 50}, {0, 50, 50, 50}, {}));
+  CHECK(chiSquareOfCounts({0, 50, 50, 50}, {0, 50, 50, 50}, {}));
+}
+
 TEST_CASE("Correct samplers pass, at the rate that their level promises") {
   int passed = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed)

@@ -47,7 +47,7 @@ TEST_CASE("BSDF samplers draw with the density that they state") {
     const BuiltMaterial material(m.kind);
     for (const float angle : anglesFor(m)) {
       const ChiSquareResult result =
-          chiSquareOfMaterial(*material, directionAt(angle), {.samples = 150'000, .tests = tests});
+          chiSquareOfMaterial(*material, directionAt(angle), {.samples = 100'000, .resolution = 39, .tests = tests});
       INFO(m.name << " at " << angle << " degrees: " << result.message);
       CHECK(result);
     }
@@ -60,7 +60,7 @@ TEST_CASE("The chi-square test rejects BSDF densities that are slightly wrong") 
   const BuiltMaterial rougher(ConductorMaterial{Spectrum(0.0f), Spectrum(1.0f), 1.0f, rough(0.205f, Ggx)});
   const BuiltMaterial glass(DielectricMaterial{1.5f, 1.0f, 1.0f, 1.0f, rough(0.2f, Beckmann)});
   const BuiltMaterial plastic(PlasticMaterial{1.5f, 1.0f, 0.5f, 1.0f, false, rough(0.2f, Ggx)});
-  const ChiSquareSettings settings{.samples = 150'000, .tests = 200};
+  const ChiSquareSettings settings{.samples = 100'000, .resolution = 39, .tests = 200};
 
   // A forgotten cosine between half vectors and directions.
   const Distorted jacobian(*conductor,

@@ -49,6 +49,7 @@ inline std::vector<NamedMaterial> smoothLobeMaterials() {
     const std::string d = distribution == Ggx ? "GGX" : "Beckmann";
     for (const float alpha : {0.05f, 0.2f, 0.7f}) {
       for (const bool visible : {true, false}) {
+        if (!visible && alpha < 0.1f) continue;
         const std::string suffix = " " + d + " " + std::to_string(alpha) + (visible ? " visible" : " all");
         const pt::Roughness r = rough(alpha, distribution, visible);
         all.push_back({"conductor" + suffix, pt::ConductorMaterial{eta, k, 1.0f, r}});
