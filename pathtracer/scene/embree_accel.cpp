@@ -62,12 +62,14 @@ void quadricOccluded(const RTCOccludedFunctionNArguments* args) {
 // ---------------------------------------------------------------- hits within rounding error
 
 /// Distances to a triangle's plane below this part of the longest edge may be rounding errors of Embree.
-constexpr float kDoubtful = 0x1p-16f;
+constexpr double kDoubtful = 0x1p-16;
 
-bool isDoubtful(const Mesh& mesh, float t, const Vec3& direction, const Vec3& ng) {
-  const float height = t * direction.dot(ng);  // times |ng|
-  const float limit = kDoubtful * mesh.maxEdge;
-  return height * height < limit * limit * ng.length2();
+/// In double precision, as the squares leave the range of floats.
+bool isDoubtful(const Mesh& mesh, double t, const Imath::V3d& direction, const RTCHit& hit) {
+  const Imath::V3d ng(hit.Ng_x, hit.Ng_y, hit.Ng_z);
+  const double height = t * direction.dot(ng);  // times |ng|
+  const double limit = kDoubtful * mesh.maxEdge;
+  return height * height <= limit * limit * ng.length2();
 }
 
 /// Whether the ray meets the triangle's plane beyond tMin, in double precision from the exact vertices.
@@ -83,8 +85,9 @@ void filterOccluder(const RTCFilterFunctionNArguments* args) {
   const auto& mesh = *static_cast<const Mesh*>(args->geometryUserPtr);
   const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);
   const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
-  if (!isDoubtful(mesh, ray.tfar, {ray.dir_x, ray.dir_y, ray.dir_z}, {hit.Ng_x, hit.Ng_y, hit.Ng_z})) return;
-  if (!isBeyond(mesh, hit.primID, toDouble(ray), ray.tnear)) args->valid[0] = 0;
+  const RayD exact = toDouble(ray);
+  if (isDoubtful(mesh, ray.tfar, exact.direction, hit) && !isBeyond(mesh, hit.primID, exact, ray.tnear))
+    args->valid[0] = 0;
 }
 
 // ---------------------------------------------------------------- building
@@ -192,8 +195,7 @@ struct EmbreeAccel::Impl {
       const Transform& toWorld = instanceTransform[query.hit.instID[0] - shapes.size()];
       ray = {toWorld.inversePoint(ray.origin), toWorld.inverseVector(ray.direction)};
     }
-    const Vec3 ng(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
-    return isDoubtful(*mesh, query.ray.tfar, Vec3(ray.direction), ng) && !isBeyond(*mesh, query.hit.primID, ray, tMin);
+    return isDoubtful(*mesh, query.ray.tfar, ray.direction, query.hit) && !isBeyond(*mesh, query.hit.primID, ray, tMin);
   }
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/ray_offset.h"
 #include "scene/transform.h"
 
 namespace pt {
@@ -17,6 +18,12 @@ void validate(const TriangleMesh& mesh, const std::string& where) {
   if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())
     throw InputError(fmt::format("{}: the mesh has {} vertices but {} texture coordinates", where,
                                  mesh.positions.size(), mesh.uvs.size()));
+}
+
+/// Embree leaves out triangles that are not, so that their squares stay within floats.
+void requireUsable(const Vec3& vertex, std::size_t i, const std::string& where) {
+  if (!isFinite(vertex)) throw InputError(fmt::format("{}: vertex {} is not finite", where, i));
+  if (maxAbs(vertex) > 1e18f) throw InputError(fmt::format("{}: vertex {} is further out than 1e18", where, i));
 }
 
 void setVector(float* target, const Imath::V3d& v) {
@@ -35,8 +42,7 @@ void bakeVertices(const TriangleMesh& source, const Transform& toWorld, const Ba
   for (std::size_t i = 0; i < source.positions.size(); ++i) {
     float* vertex = &mesh.vertices[i * mesh.stride];
     setVector(vertex, toWorld.point(Imath::V3d(source.positions[i])));
-    if (!std::isfinite(vertex[0]) || !std::isfinite(vertex[1]) || !std::isfinite(vertex[2]))
-      throw InputError(fmt::format("{}: vertex {} is not finite", where, i));
+    requireUsable(mesh.position(std::uint32_t(i)), i, where);
     if (!normals) continue;
     const Imath::V3d n = toWorld.normal(Imath::V3d(source.normals[i])).normalized();
     setVector(vertex + 3, options.flipNormals ? -n : n);  // a zero or non-finite normal is met when it is interpolated

@@ -1,0 +1,176 @@
+#include "catch.h"
+#include "core/warp.h"
+#include "pathtracer/scene/scene_fixture.h"
+#include "statistics/random.h"
+
+using namespace pt;
+
+namespace {
+
+/// A convex ball of flat triangles, radius 1.
+MeshShape makeBall(int rings, int segments) {
+  std::vector<Vec3> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (int i = 0; i <= rings; ++i)
+    for (int j = 0; j < segments; ++j) {
+      const float theta = kPi * float(i) / float(rings), phi = 2 * kPi * float(j) / float(segments);
+      positions.emplace_back(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+    }
+  const auto vertex = [&](int i, int j) { return std::uint32_t(i * segments + j % segments); };
+  for (int i = 0; i < rings; ++i)
+    for (int j = 0; j < segments; ++j) {
+      if (i > 0) triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i, j + 1)});
+      if (i < rings - 1) triangles.push_back({vertex(i, j + 1), vertex(i + 1, j), vertex(i + 1, j + 1)});
+    }
+  return test::makeMesh(positions, triangles);
+}
+
+struct Counts {
+  int hits = 0;
+  int selfHits = 0;      ///< rays that leave the convex shape and meet it again
+  int bareSelfHits = 0;  ///< the same without the offset
+  int leaks = 0;         ///< rays that go into the closed shape and do not meet it
+};
+
+/// Rays from outside meet the convex, closed shape around `center`; from there rays go out and in, in all directions.
+Counts probe(const SceneDescription& description, const Vec3& center, float radius, int rays) {
+  const Scene scene(description);
+  test::Random random(7);
+  Counts counts;
+  for (int i = 0; i < rays; ++i) {
+    const Vec3 from = center + squareToUniformSphere(random.next2D()) * (4 * radius);
+    const Vec3 to = center + squareToUniformSphere(random.next2D()) * (0.9f * radius * random.next1D());
+    SurfaceInteraction si;
+    if (!scene.intersect({from, (to - from).normalized()}, si)) continue;
+    ++counts.hits;
+    const Vec3 local = squareToUniformSphere(random.next2D());
+    const Vec3 out = si.ng * std::copysign(1.0f, si.ng.dot(si.wo));
+    const Vec3 direction = local.dot(out) < 0 ? -local : local;
+    SurfaceInteraction next;
+    const Ray leaving = scene.spawnRay(si, direction), entering = scene.spawnRay(si, -direction);
+    counts.selfHits += scene.occluded(leaving) || scene.intersect(leaving, next);
+    counts.bareSelfHits += scene.occluded({si.p, direction});
+    counts.leaks += !scene.occluded(entering) || !scene.intersect(entering, next);
+  }
+  return counts;
+}
+
+/// A point that is known to one part in 2^24 of its coordinates may lie beyond the edge of its face: rays that enter
+/// there may leak, as rarely as the error is small beside the shape.
+void checkWatertight(const SceneDescription& description, const Vec3& center, float radius) {
+  const Counts counts = probe(description, center, radius, 20'000);
+  CHECK(counts.hits > 10'000);
+  CHECK(counts.selfHits == 0);
+  CHECK(counts.leaks <= int(1e-7f * center.length() / radius * float(counts.hits)));
+}
+
+}  // namespace
+
+TEST_CASE("Rays leave a convex shape for good, and those that enter it meet it, at every scale and place") {
+  for (float scale : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f})
+    for (float shift : {0.0f, 3.0f, 1e4f}) {
+      CAPTURE(scale, shift);
+      const Vec3 center = Vec3(1, -0.7f, 0.3f) * (shift * scale);
+      const Matrix4 toWorld = test::scaling(Vec3(scale)) * test::translation(center);
+      checkWatertight(test::sceneOf(SphereShape{}, toWorld), center, scale);
+      checkWatertight(test::sceneOf(CubeShape{}, toWorld), center, scale);
+      checkWatertight(test::sceneOf(makeBall(12, 16), toWorld), center, scale);
+    }
+}
+
+TEST_CASE("Without the offset the same rays do meet their own surface") {
+  const Vec3 center(3, -2, 1);
+  CHECK(probe(test::sceneOf(makeBall(12, 16), test::translation(center)), center, 1, 20'000).bareSelfHits > 100);
+  CHECK(probe(test::sceneOf(SphereShape{}, test::translation(center)), center, 1, 20'000).bareSelfHits > 100);
+}
+
+TEST_CASE("A shape of 100 units stays closed a million units away") {
+  const Vec3 center(1e6f, -1e6f, 1e6f);
+  const Matrix4 toWorld = test::scaling(Vec3(100)) * test::translation(center);
+  checkWatertight(test::sceneOf(SphereShape{}, toWorld), center, 100);
+  checkWatertight(test::sceneOf(CubeShape{}, toWorld), center, 100);
+}
+
+TEST_CASE("Instances stay closed under scale, shear of the view and translation") {
+  for (float scale : {1e-3f, 1.0f, 1e3f})
+    for (float shift : {0.0f, 100.0f}) {
+      CAPTURE(scale, shift);
+      const Vec3 center = Vec3(1, -0.7f, 0.3f) * (shift * scale);
+      SceneDescription description = test::emptyScene();
+      description.groups.push_back({"ball", {test::makeShape(makeBall(12, 16), test::translation({10, 0, 0}))}});
+      const Matrix4 rotation = Matrix4().setAxisAngle(Vec3(1, 2, 3).normalized(), 0.8f);
+      description.shapes.push_back(test::makeShape(
+          InstanceShape{0}, test::translation({-10, 0, 0}) * rotation *
+                                test::scaling({scale, 2 * scale, 0.5f * scale}) * test::translation(center)));
+      checkWatertight(description, center, 0.5f * scale);
+    }
+}
+
+TEST_CASE("Beside the diagonal of a huge floor nothing shadows itself, and small things cast their shadow") {
+  SceneDescription description = test::sceneOf(RectangleShape{}, test::scaling({1e6f, 1e6f, 1}));
+  const Scene floor(description);
+  description.shapes.push_back(test::makeShape(RectangleShape{}, test::translation({0, 0, 1e-3f})));
+  const Scene covered(description);
+  test::Random random(11);
+  for (int i = 0; i < 50'000; ++i) {
+    const float along = random.next1D() - 0.5f, across = (random.next1D() - 0.5f) * 0.1f;
+    SurfaceInteraction si;
+    REQUIRE(floor.intersect({Vec3(along, along + across, 5e-4f), {0, 0, -1}}, si));
+    Vec3 direction = squareToUniformSphere(random.next2D());
+    direction.z = std::abs(direction.z) + 1e-3f;
+    const Ray ray = floor.spawnRay(si, direction.normalized());
+    SurfaceInteraction next;
+    REQUIRE_FALSE(floor.occluded(ray));
+    REQUIRE_FALSE(floor.intersect(ray, next));
+    if (direction.z > 0.1f) REQUIRE(covered.occluded(ray));
+  }
+}
+
+TEST_CASE("Sampled light arrives from everywhere in front, also along the light's own plane, at every scale") {
+  for (float scale : {1e-6f, 1.0f, 1e6f})
+    for (float height : {1e-3f, 0.1f, 10.0f, 1e4f}) {
+      CAPTURE(scale, height);
+      // The floor z = 0 sees a square, a disk and a ball above it.
+      SceneDescription description = test::sceneOf(RectangleShape{}, test::scaling(Vec3(100 * height * scale)));
+      const Matrix4 lamp = test::scaling(Vec3(scale)) * test::translation({0, 0, height * scale});
+      description.shapes.push_back(test::makeShape(RectangleShape{}, lamp));
+      description.shapes.back().flipNormals = true;
+      description.shapes.back().emission = SpectrumParameter(1.0f);
+      const Scene square(description);
+      description.shapes.back().kind = DiskShape{};
+      const Scene disk(description);
+      description.shapes.back().kind = SphereShape{{0, 0, 1}, 1};
+      description.shapes.back().flipNormals = false;
+      const Scene ball(description);
+
+      test::Random random(13);
+      for (const Scene* scene : {&square, &disk, &ball})
+        for (int i = 0; i < 3000; ++i) {
+          const Vec2 xy = squareToDisk(random.next2D()) * (90 * height * scale);
+          SurfaceInteraction si;
+          const Vec3 above(xy.x, xy.y, 0.5f * height * scale);
+          REQUIRE(scene->intersect({above, {0, 0, -1}}, si));
+          const auto sample = scene->sampleDirect(si.p, 0, random.next2D());
+          if (!(sample.pdf > 0)) continue;
+          CAPTURE(scene == &ball, scene == &disk, si.p, sample.wi, sample.distance, si.offset);
+          REQUIRE(scene->visible(si, sample));
+        }
+    }
+}
+
+TEST_CASE("A cover close before the light hides it") {
+  SceneDescription description = test::sceneOf(RectangleShape{}, test::translation({0, 0, 10 - 1e-4f}));
+  description.shapes.push_back(test::makeShape(RectangleShape{}, test::translation({0, 0, 10})));
+  description.shapes.back().flipNormals = true;
+  description.shapes.back().emission = SpectrumParameter(1.0f);
+  const Scene scene(description);
+  SurfaceInteraction si;
+  si.p = Vec3(0.1f, 0.2f, 0);
+  si.ng = Vec3(0, 0, 1);
+  test::Random random(17);
+  for (int i = 0; i < 1000; ++i) {
+    const auto sample = scene.sampleDirect(si.p, 0, random.next2D());
+    REQUIRE(sample.pdf > 0);
+    REQUIRE_FALSE(scene.visible(si, sample));
+  }
+}
