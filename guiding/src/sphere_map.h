@@ -26,10 +26,11 @@ struct SquarePoint {
   }
 };
 
+/// Coordinates outside [0,1) go to its ends, NaN to 0.
 inline SquarePoint toSquarePoint(const Imath::V2f& uv) noexcept {
   constexpr float kScale = float(1u << SquarePoint::kBits);
-  return {std::uint32_t(std::clamp(uv.x, 0.0f, kOneMinusEpsilon) * kScale),
-          std::uint32_t(std::clamp(uv.y, 0.0f, kOneMinusEpsilon) * kScale)};
+  const auto clamped = [](float x) { return x > 0 ? (x < kOneMinusEpsilon ? x : kOneMinusEpsilon) : 0.0f; };
+  return {std::uint32_t(clamped(uv.x) * kScale), std::uint32_t(clamped(uv.y) * kScale)};
 }
 
 namespace detail {
@@ -90,8 +91,8 @@ inline Imath::V2f sphereToSquare(DirectionMap map, const Imath::V3f& w) noexcept
 /// Bound of |sphereToSquare(squareToSphere(uv)) - uv| in either coordinate in float arithmetic (checked by the tests).
 inline float squareRoundTripError(DirectionMap map, const Imath::V3f& w) noexcept {
   if (map == DirectionMap::Octahedral) return 1e-6f;
-  // Near the poles of the cylinder the azimuth loses bits as the circle shrinks.
-  return 4e-7f + 3e-7f / std::max(1e-6f, std::sqrt(w.x * w.x + w.y * w.y));
+  // Near the poles of the cylinder the azimuth loses bits as the circle shrinks; at the poles it is lost.
+  return 4e-7f + 3e-7f / std::max(5e-7f, std::sqrt(w.x * w.x + w.y * w.y));
 }
 
 }  // namespace guiding
