@@ -45,14 +45,14 @@ class ExactSum8 {
   Double8 m_sum{}, m_correction{};
 };
 
-/// visit(t, b) for eight cells at a time, t times `scale`; missing ones are empty.
-template <class Real, class Visit>
-void forEachEight(std::span<const Real> t, std::span<const Real> b, double scale, Visit&& visit) noexcept {
+/// visit(scaled(t), b) for eight cells at a time; missing ones are empty.
+template <class Real, class Scaled, class Visit>
+void forEachEight(std::span<const Real> t, std::span<const Real> b, const Scaled& scaled, Visit&& visit) noexcept {
   for (std::size_t j = 0; j < t.size(); j += 8) {
     Double8 t8{}, b8{};
     const std::size_t count = std::min<std::size_t>(8, t.size() - j);
     for (std::size_t lane = 0; lane < count; ++lane) {
-      t8[lane] = t[j + lane] * scale;
+      t8[lane] = scaled(t[j + lane]);
       b8[lane] = b[j + lane];
     }
     visit(t8, b8);
@@ -88,18 +88,18 @@ CompensationResult solve(std::span<const Real> t, std::span<const Real> b, doubl
   const double toUnit = std::ldexp(1.0, std::clamp(-exponent, -1022, 1022));
   ExactSum total;
   for (const Real tj : t) total.add(tj * toUnit);
-  const double scale = toUnit / total.value();
-  if (!std::isfinite(scale)) return nothing();
+  const double perTotal = 1 / total.value();
+  const auto scaled = [=](double tj) { return tj * toUnit * perTotal; };
 
   CompensationResult result;
   result.lambda =
       form == CompensationForm::WaterFilling
-          ? waterLevel<Double8, ExactSum8, double>([&](auto&& visit) { forEachEight(t, b, scale, visit); }, alpha)
+          ? waterLevel<Double8, ExactSum8, double>([&](auto&& visit) { forEachEight(t, b, scaled, visit); }, alpha)
           : 1.0;
   const double floor = form == CompensationForm::None ? 0.0 : alpha;
   ExactSum kept, removed;
   for (std::size_t j = 0; j < t.size(); ++j) {
-    const double tj = t[j] * scale;
+    const double tj = scaled(t[j]);
     const double rest = tj / result.lambda - floor * b[j];
     if (!(rest > 0)) removed.add(tj);
     kept.add(std::max(0.0, rest));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "eight.h"
 
 namespace guiding {
@@ -8,10 +10,11 @@ namespace guiding {
 /// second moment].
 ///
 /// `forEachCells(visit)` calls visit(t, b) with eight cells at a time; Sum adds up eights. Dropping every cell with
-/// t <= lambda alpha b raises lambda, so dropped cells never return and the loop ends.
+/// t <= lambda alpha b raises lambda, so dropped cells never return and the loop ends. Rounding can bring a cell back
+/// that lies on the very level; then the level is found as well.
 template <class Eight, class Sum, class Real, class ForEachCells>
 Real waterLevel(ForEachCells&& forEachCells, Real alpha) noexcept {
-  Real lambda = 0, activeBefore = -1;
+  Real lambda = 0, activeBefore = std::numeric_limits<Real>::max();
   for (;;) {
     Sum activeT, activeB;
     Eight active{};
@@ -23,7 +26,7 @@ Real waterLevel(ForEachCells&& forEachCells, Real alpha) noexcept {
       active += isActive ? Eight{} + 1 : Eight{};
     });
     const Real count = sumOfLanes(active);
-    if (count == activeBefore || count == 0) return lambda;
+    if (!(count < activeBefore) || count == 0) return lambda;
     activeBefore = count;
     lambda = Real(activeT.total()) / ((1 - alpha) + alpha * Real(activeB.total()));
   }
