@@ -26,17 +26,17 @@ float sampleSlopeAlongTilt(float sinTheta, float cosTheta, float u) noexcept {
   const float target = std::clamp(u, 1e-6f, 1 - 1e-6f) * total;
 
   float low = -kErfLimit, high = std::min(bMax, kErfLimit);
-  float b = bMax - (1 + bMax) * std::pow(1 - u, 1 - 0.55f * sinTheta);  // exact at normal, close at grazing incidence
-  float x = 0;
+  const float exponent = 1 - sinTheta * (0.855f - 0.301f * sinTheta);  // fitted; exact at normal incidence
+  float b = bMax - (1 + bMax) * std::pow(1 - u, exponent);
   for (int i = 0; i < 10; ++i) {
     if (!(b > low && b < high)) b = 0.5f * (low + high);
-    x = erfInverse(b);
+    const float x = erfInverse(b);
     const float excess = cosTheta * (1 + b) + sinTheta * kInvSqrtPi * std::exp(-x * x) - target;
-    if (std::abs(excess) < 1e-6f * total) break;
     (excess > 0 ? high : low) = b;
-    b -= excess / (cosTheta - x * sinTheta);
+    b -= excess / std::max(1e-7f, cosTheta - x * sinTheta);
+    if (std::abs(excess) < 1e-5f * total) break;  // the step above squares what is left
   }
-  return x;
+  return erfInverse(std::clamp(b, low, high));
 }
 
 }  // namespace

@@ -318,3 +318,45 @@ TEST_CASE("Rough transmittance approaches the smooth one and obeys reciprocity")
     CHECK(dense.diffuse() == Approx(mean).epsilon(5e-3));
   }
 }
+
+TEST_CASE("BSDFs stay finite and positive at the edges of their domains") {
+  const float cosines[] = {1e-20f, 1e-7f, 1e-3f, 0.5f, 1 - 1e-7f, 1.0f};
+  const float numbers[] = {0.0f, 1e-7f, 0.5f, kOneMinusEpsilon};
+  std::vector<Vec3> directions;
+  for (const float z : cosines)
+    for (const float sign : {1.0f, -1.0f}) {
+      directions.emplace_back(safeSqrt(1 - z * z), 0.0f, sign * z);
+      directions.emplace_back(0.0f, -safeSqrt(1 - z * z), sign * z);
+    }
+  const auto isSound = [](const Spectrum& value, float pdf) {
+    return std::isfinite(value.x) && value.x >= 0 && std::isfinite(pdf) && pdf >= 0;
+  };
+  std::vector<NamedMaterial> materials = smoothLobeMaterials();
+  for (const auto distribution : {MicrofacetDistribution::Ggx, MicrofacetDistribution::Beckmann}) {
+    const Roughness r = rough(kSmoothAlpha, distribution);
+    materials.push_back({"shiniest conductor", ConductorMaterial{Spectrum(0.0f), Spectrum(1.0f), 1.0f, r}});
+    materials.push_back({"shiniest dielectric", DielectricMaterial{1.5f, 1.0f, 1.0f, 1.0f, r}});
+    materials.push_back({"shiniest plastic", PlasticMaterial{1.5f, 1.0f, 0.5f, 1.0f, false, r}});
+  }
+  for (const NamedMaterial& m : materials) {
+    const BuiltMaterial material(m.kind);
+    // Sampling normals that wo does not see leaves weights unbounded at grazing angles.
+    const bool boundedWeights = m.name.find(" all") == std::string::npos;
+    int unsound = 0;
+    for (const Vec3& wo : directions) {
+      for (const Vec3& wi : directions) {
+        const BsdfEvaluation e = material->evaluate(kSi, wo, wi);
+        unsound += !isSound(e.bsdfCos, e.pdf);
+      }
+      for (const float uLobe : numbers)
+        for (const float x : numbers)
+          for (const float y : numbers) {
+            const BsdfSample s = material->sample(kSi, wo, uLobe, {x, y});
+            unsound += !isSound(s.weight, s.pdf) || (boundedWeights && s.weight.x > 10);
+            if (s.pdf > 0) unsound += !(std::abs(s.wi.length() - 1) < 1e-5f);
+          }
+    }
+    INFO(m.name);
+    CHECK(unsound == 0);
+  }
+}
