@@ -50,7 +50,7 @@ float GuidingDensity::pdf(std::uint32_t index, const Grid& grid, const Imath::V3
 
 DirectionSample GuidingDensity::sample(std::uint32_t index, const Grid& grid, const Imath::V2f& u) const noexcept {
   const Tree& tree = m_trees[index];
-  const Grid::Choice choice = grid.sample(u);
+  const Grid::Choice choice = grid.sample({belowOne(u.x), belowOne(u.y)});
   const int gridCell = choice.x * Grid::kSize + choice.y;
   float x = choice.rest.x, y = choice.rest.y;
   float density = Grid::kCells * kInvFourPi * grid.mass(choice.x, choice.y);
@@ -75,8 +75,11 @@ DirectionSample GuidingDensity::sample(std::uint32_t index, const Grid& grid, co
   const Imath::V3f wi = squareToSphere(m_map, corner + Imath::V2f(x, y) * size);
   // Close to its cell's border the float direction may belong to the neighbour; the direction is the truth.
   const float inside = std::min(std::min(x, 1 - x), std::min(y, 1 - y)) * size;
-  if (inside <= squareRoundTripError(m_map, wi)) return {wi, pdf(index, grid, wi)};
-  return {wi, density};
+  if (inside > squareRoundTripError(m_map, wi)) return {wi, density};
+  if (const float pdfThere = pdf(index, grid, wi); pdfThere > 0) return {wi, pdfThere};
+  // Next to an empty cell the border is taken back to where there is something.
+  const Imath::V3f middle = squareToSphere(m_map, corner + Imath::V2f(0.5f * size));
+  return {middle, pdf(index, grid, middle)};
 }
 
 int GuidingDensity::maxDepth(std::uint32_t index) const noexcept {

@@ -26,11 +26,13 @@ struct alignas(32) Grid {
   float mass(int x, int y) const noexcept { return upTo[x + 1][y] - upTo[x][y]; }
   float total() const noexcept { return rowUpTo[kSize - 1] + upTo[kSize][kSize - 1]; }
 
-  /// Takes masses [x][y] that add up to about 1.
+  /// Takes masses [x][y] that add up to about 1. Those too small to be divided by count as empty.
   void assign(const std::array<Row, kSize>& masses) noexcept {
+    constexpr float kSmallest = 1e-30f;
     upTo[0].fill(0);
     for (int x = 0; x < kSize; ++x)
-      for (int y = 0; y < kSize; ++y) upTo[x + 1][y] = upTo[x][y] + masses[x][y];
+      for (int y = 0; y < kSize; ++y)
+        upTo[x + 1][y] = upTo[x][y] + (masses[x][y] > kSmallest ? masses[x][y] : 0.0f);
     sumRows();
   }
 
