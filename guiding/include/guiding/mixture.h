@@ -3,6 +3,7 @@
 #include <ImathVec.h>
 
 #include <concepts>
+#include <limits>
 
 #include "guiding/distribution.h"
 
@@ -19,8 +20,9 @@ struct BsdfEvaluation {
 template <class Color>
 struct BsdfDraw {
   Imath::V3f wi;
-  Color weight;   ///< BSDF * |cos| / pdf (for a delta lobe its throughput weight); black: the sample failed
-  float pdf = 0;  ///< per solid angle; for a delta lobe the probability of choosing it
+  Color weight;   ///< BSDF * |cos| / pdf (for a delta lobe its throughput weight)
+  float pdf = 0;  ///< per solid angle; for a delta lobe the probability of choosing it; 0: the sample failed, and
+                  ///< neither direction nor weight mean anything
   bool isDelta = false;
 };
 
@@ -30,7 +32,8 @@ struct MixtureDraw {
   Imath::V3f wi;
   Color weight;   ///< throughput weight: BSDF * |cos| / mixturePdf; black: the path ends
   Color bsdfCos;  ///< BSDF * |cos|; unset for delta events
-  float pdf = 0;  ///< alpha * bsdfPdf + (1 - alpha) * guidePdf, per solid angle; for a delta event alpha * probability
+  float pdf = 0;  ///< alpha * bsdfPdf + (1 - alpha) * guidePdf, per solid angle; for a delta event alpha *
+                  ///< probability; 0: the sample failed, its weight is black
   float bsdfPdf = 0;
   float guidePdf = 0;
   bool isDelta = false;
@@ -59,11 +62,13 @@ inline float mixturePdf(const GuidingDistribution& guide, float bsdfPdf, const I
 template <HostBsdf B>
 MixtureDraw<typename B::Color> sampleMixture(const B& bsdf, const GuidingDistribution& guide, float uChoice,
                                              const Imath::V2f& u) noexcept {
-  MixtureDraw<typename B::Color> draw{};
+  using Color = typename B::Color;
+  MixtureDraw<Color> draw{.wi = {0, 0, 1}, .weight = Color(0.0f), .bsdfCos = Color(0.0f)};
   const float alpha = guide ? guide.bsdfSamplingFraction() : 1.0f;
 
   if (uChoice < alpha) {
     const auto b = bsdf.sample(uChoice / alpha < 1 ? uChoice / alpha : 0x1.fffffep-1f, u);
+    if (!(b.pdf > 0)) return draw;
     draw.wi = b.wi;
     draw.isDelta = b.isDelta;
     draw.bsdfPdf = b.pdf;
@@ -78,6 +83,7 @@ MixtureDraw<typename B::Color> sampleMixture(const B& bsdf, const GuidingDistrib
     draw.bsdfCos = b.weight * b.pdf;
   } else {
     const DirectionSample g = guide.sample(u);
+    if (!(g.pdf > 0)) return draw;
     const auto e = bsdf.evaluate(g.wi);
     draw.wi = g.wi;
     draw.fromGuide = true;
@@ -86,7 +92,8 @@ MixtureDraw<typename B::Color> sampleMixture(const B& bsdf, const GuidingDistrib
     draw.pdf = alpha * e.pdf + (1 - alpha) * g.pdf;
     draw.bsdfCos = e.bsdfCos;
   }
-  draw.weight = draw.pdf > 0 ? draw.bsdfCos * (1 / draw.pdf) : typename B::Color(0.0f);
+  // Below the smallest normal number the reciprocal is infinite.
+  if (draw.pdf >= std::numeric_limits<float>::min()) draw.weight = draw.bsdfCos * (1 / draw.pdf);
   return draw;
 }
 
