@@ -21,6 +21,7 @@ double sigmoid(double x) noexcept {
 
 void AdamFraction::learn(std::span<const FractionRecord> records, FractionLoss loss) noexcept {
   constexpr double kRate = 0.01, kBeta1 = 0.9, kBeta2 = 0.999, kEpsilon = 1e-8, kRegularisation = 0.01;
+  constexpr double kLargestWeight = 1e100;
   constexpr std::uint32_t kBatch = 2;
   for (const FractionRecord& r : records) {
     if (!(r.product > 0)) continue;
@@ -29,8 +30,9 @@ void AdamFraction::learn(std::span<const FractionRecord> records, FractionLoss l
     if (!(mixture > 0)) continue;
     // The ratio of densities first: it is bounded by the fractions, its parts are not.
     const double ratio = (double(r.bsdfPdf) - r.guidePdf) / mixture;
-    const double weight =
-        loss == FractionLoss::Variance ? double(r.product) / mixture * (r.product / r.pdf) : double(r.product) / r.pdf;
+    const double importance = double(r.product) / r.pdf;
+    const double weight = loss == FractionLoss::Variance ? r.product / mixture * importance : importance;
+    if (!(weight < kLargestWeight)) continue;  // its square would stay in the second moment for ever
     batchGradient += -weight * ratio * alpha * (1 - alpha) + kRegularisation * logit;
     if (++batchCount < kBatch) continue;
 
@@ -53,19 +55,21 @@ void FractionSlopes::learn(std::span<const FractionRecord> records, FractionLoss
   const Float8 alpha = std::bit_cast<Float8>(kFractions);
   Double8 sum{};
   for (const FractionRecord& r : records) {
-    if (!(r.product > 0)) continue;
+    if (!(r.product > 0) || !(r.bsdfPdf > 0 || r.guidePdf > 0)) continue;
     ++count;
     const Float8 mixture = alpha * r.bsdfPdf + (1 - alpha) * r.guidePdf;
     const Float8 ratio = (r.bsdfPdf - r.guidePdf) / mixture;  // bounded by the fractions
-    const float weight = r.product / r.pdf;
-    const Float8 term = loss == FractionLoss::Variance ? ratio * (weight * r.product) / mixture : ratio * weight;
-    sum -= __builtin_convertvector(term, Double8);
+    // Weights may leave the range of float: fractions do not depend on the scale of radiance.
+    Double8 term = __builtin_convertvector(ratio, Double8) * (double(r.product) / r.pdf);
+    if (loss == FractionLoss::Variance) term *= double(r.product) / __builtin_convertvector(mixture, Double8);
+    sum -= term;
   }
   for (int i = 0; i < kNodes; ++i) slope[i] += sum[i];
 }
 
 float FractionSlopes::fraction(float previous) const noexcept {
   if (count < kFewestSamples || !std::isfinite(slope.front()) || !std::isfinite(slope.back())) return previous;
+  if (!(slope.front() < slope.back())) return previous;  // the densities are the same: any fraction will do
   if (slope.front() >= 0) return kMinFraction;
   for (int i = 1; i < kNodes; ++i) {
     if (!(slope[i] >= 0)) continue;
