@@ -160,7 +160,7 @@ TEST_CASE("Each number is uniform and dimensions are independent") {
 TEST_CASE("Neighbouring pixels and seeds are not correlated") {
   for (const SamplerKind kind : kKinds) {
     Sampler sampler(kind, 0), next(kind, 1);
-    RunningMean pixels, seeds;
+    RunningMean pixels, seeds, itself;
     for (int x = 0; x < 20'000; ++x) {
       sampler.startPath(x, 0, 0);
       const float a = sampler.next1D() - 0.5f;
@@ -168,9 +168,11 @@ TEST_CASE("Neighbouring pixels and seeds are not correlated") {
       pixels.add(a * (sampler.next1D() - 0.5f));
       next.startPath(x, 0, 0);
       seeds.add(a * (next.next1D() - 0.5f));
+      itself.add(a * (a + 5 * (next.next1D() - 0.5f)));
     }
     CHECK(zTest(pixels, 0, 1e-3));
     CHECK(zTest(seeds, 0, 1e-3));
+    CHECK(!zTest(itself, 0, 1e-3));  // a correlation of a fifth is noticed
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "materials/material.h"
 #include "statistics/chi_square.h"
+#include "statistics/quadrature.h"
 
 /// Materials by description, for tests of BSDFs.
 namespace test {
@@ -81,6 +82,22 @@ inline ChiSquareResult chiSquareOfMaterial(const pt::Material& material, const p
   };
   return chiSquareOnSphere(
       sample, [&](const Imath::V3f& wi) { return material.evaluate(si, wo, wi).pdf; }, settings);
+}
+
+/// Directional albedo: the mean over the channels of the integral of BSDF * cos over wi, smooth lobes.
+inline double albedoOf(const pt::Material& material, const pt::Vec3& wo) {
+  const pt::SurfaceInteraction si{};
+  const auto f = [&](double phi, double theta) {
+    const double s = std::sin(theta);
+    const pt::Vec3 wi(float(s * std::cos(phi)), float(s * std::sin(phi)), float(std::cos(theta)));
+    return pt::average(material.evaluate(si, wo, wi).bsdfCos) * s;
+  };
+  double sum = 0;
+  constexpr int kPhi = 16, kTheta = 31;
+  const double dPhi = 2 * M_PI / kPhi, dTheta = M_PI / kTheta;
+  for (int i = 0; i < kPhi; ++i)
+    for (int j = 0; j < kTheta; ++j) sum += integrate(f, dPhi * i, dPhi * (i + 1), dTheta * j, dTheta * (j + 1), 1e-7);
+  return sum;
 }
 
 }  // namespace test
