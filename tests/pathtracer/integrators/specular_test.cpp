@@ -1,0 +1,46 @@
+#include "catch.h"
+#include "scenes.h"
+
+using namespace test;
+using guiding::CompensationForm;
+
+TEST_CASE("light seen in a mirror keeps its full weight", "[integrators]") {
+  pt::SceneDescription description = floor();
+  description.materials[0].kind = pt::ConductorMaterial{};  // reflects everything
+  description.lights.push_back({pt::ConstantEnvironment{pt::Spectrum(2.0f)}, "test"});
+  const pt::Scene scene(description);
+  pt::RenderSettings settings = settingsFor(description, 1);
+  for (const bool nee : {false, true}) {
+    settings.nee = nee;
+    CHECK(meanLuminance(render(scene, settings).image) == Approx(2.0).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("nothing is learned where every material is perfectly specular", "[integrators]") {
+  pt::SceneDescription description = floor();
+  description.materials[0].kind = pt::ConductorMaterial{};
+  description.lights.push_back({pt::ConstantEnvironment{pt::Spectrum(2.0f)}, "test"});
+  const pt::Scene scene(description);
+  pt::RenderSettings settings = settingsFor(description, 7);
+  settings.guiding = eagerGuiding(CompensationForm::None);
+  const pt::RenderResult result = render(scene, settings);
+  CHECK_FALSE(result.field);
+  CHECK(result.iterations.size() == 1);
+  CHECK(result.peakRecordBytes == 0);
+}
+
+TEST_CASE("refraction does not make roulette end paths early", "[integrators]") {
+  // From thin inside a shell of a dense medium to thin again: the radiance carried shrinks by eta^2 = 4 at the first
+  // surface, grows back at the second, and nothing is absorbed.
+  const pt::SceneDescription description = denseShell();
+  const pt::Scene scene(description);
+  pt::RenderSettings settings = settingsFor(description, 64);
+  settings.path.rrDepth = 1;
+  const RunningMean mean = meanOfRuns(scene, settings, 20);
+  const ZResult agrees = zTest(mean, 1.0, 0.001);
+  INFO(agrees.message);
+  CHECK(agrees);
+  // Two hits and a look at the environment, with survival 0.95 at the second hit; by throughput alone it would be 0.25.
+  const pt::RenderResult result = render(scene, settings);
+  CHECK(double(result.counters.rays) / double(result.counters.paths) > 2.8);
+}
