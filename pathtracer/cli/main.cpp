@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 #include <guiding/version.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <new>
 #include <string>
 
 #include "cli/commands.h"
 #include "core/error.h"
+#include "core/near_name.h"
 
 namespace {
 
@@ -19,7 +21,17 @@ int fail(int status, std::string message) {
   return status;
 }
 
+/// CLI11 alone would only say that a command is missing.
+void checkCommand(const std::vector<pt::Command>& commands, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> known;
+  for (const pt::Command& command : commands) known.push_back(command.options->get_name());
+  if (std::find(known.begin(), known.end(), argv[1]) == known.end())
+    throw pt::InputError(fmt::format("{}: no such command{}", argv[1], pt::suggestName(argv[1], known)));
+}
+
 int parseAndRun(CLI::App& program, const std::vector<pt::Command>& commands, int argc, char** argv) {
+  checkCommand(commands, argc, argv);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -54,22 +54,21 @@ bool isFileName(const std::string& text) {
   return text.ends_with(".json") || text.find('/') != std::string::npos;
 }
 
+std::optional<GuidingSettings> findGuiding(const std::string& name) {
+  if (isFileName(name)) return loadGuidingSettings(name);
+  if (const GuidingPreset* preset = findGuidingPreset(name)) return preset->settings;
+  std::vector<std::string> known;
+  for (const GuidingPreset& preset : guidingPresets()) known.emplace_back(preset.name);
+  throw InputError(fmt::format("--guiding {}: no such preset{}; settings of your own go into a file ending in .json",
+                               name, suggestName(name, known)));
+}
+
 std::optional<GuidingSettings> guidingSettings(const SamplingOptions& options) {
-  if (isFileName(options.guiding)) {
-    GuidingSettings settings = loadGuidingSettings(options.guiding);
-    if (!options.compensation.empty()) settings.field.compensation = parseCompensation(options.compensation);
-    return settings;
-  }
-  const GuidingPreset* preset = findGuidingPreset(options.guiding);
-  if (!preset) {
-    std::vector<std::string> known;
-    for (const GuidingPreset& p : guidingPresets()) known.emplace_back(p.name);
-    throw InputError(fmt::format("--guiding {}: no such preset{}; settings of your own go into a file ending in .json",
-                                 options.guiding, suggestName(options.guiding, known)));
-  }
-  std::optional<GuidingSettings> settings = preset->settings;
-  if (settings)
-    settings->field.compensation = parseCompensation(options.compensation.empty() ? "uniform" : options.compensation);
+  const bool isDefault = options.guiding.empty();
+  std::optional<GuidingSettings> settings = findGuiding(isDefault ? "mueller2017" : options.guiding);
+  std::string compensation = options.compensation;
+  if (isDefault && compensation.empty()) compensation = "uniform";
+  if (settings && !compensation.empty()) settings->field.compensation = parseCompensation(compensation);
   return settings;
 }
 
@@ -79,7 +78,8 @@ CLI::IsMember memberOf() {
 }
 
 std::string presetHelp() {
-  std::string help = "How to guide: a preset or a settings file (.json). Presets:";
+  std::string help =
+      "How to guide: a preset or a settings file (.json) (default: mueller2017 with uniform compensation). Presets:";
   for (const GuidingPreset& preset : guidingPresets())
     help += fmt::format(" {} ({}),", preset.name, preset.description);
   help.pop_back();
@@ -104,16 +104,13 @@ void addOptions(CLI::App& command, SceneOptions& options) {
 
 void addOptions(CLI::App& command, SamplingOptions& options) {
   auto* spp =
-      command.add_option("--spp", options.spp, "Samples per pixel in all, training included (default: the scene's)")
-          ->check(CLI::PositiveNumber);
-  command.add_option("--seconds", options.seconds, "Time in all, training included, instead of --spp")
-      ->check(CLI::PositiveNumber)
-      ->excludes(spp);
-  command.add_option("--guiding", options.guiding, presetHelp())->capture_default_str();
+      command.add_option("--spp", options.spp, "Samples per pixel in all, training included (default: the scene's)");
+  command.add_option("--seconds", options.seconds, "Time in all, training included, instead of --spp")->excludes(spp);
+  command.add_option("--guiding", options.guiding, presetHelp());
   auto* compensation = command.add_option(
       "--compensation", options.compensation,
       "Sharpens the guide against BSDF sampling: none, uniform or clip, with an optional strength from 0 to 1 as in "
-      "uniform:0.5 (default: uniform; with a settings file, what the file says)");
+      "uniform:0.5 (default: as --guiding says)");
   command
       .add_option("--field", options.field,
                   "Guides with a field that was trained before; the whole budget is then rendered with it")
@@ -129,7 +126,9 @@ void addOptions(CLI::App& command, SamplingOptions& options) {
   command.add_option("--threads", options.threads, "Number of threads; 0: all that the machine has")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command.add_option("--seed", options.seed, "Another seed gives another, equally good picture")->capture_default_str();
+  command.add_option("--seed", options.seed, "Another seed gives another, equally good picture")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
 }
 
 SceneDescription loadDescription(const SceneOptions& options) {
@@ -157,8 +156,8 @@ RenderSettings renderSettings(const SamplingOptions& options, const SceneDescrip
   settings.sampler = options.sampler.empty() ? description.sampler : *valueOfLabel<SamplerKind>(options.sampler);
   settings.seed = options.seed;
   settings.threads = options.threads;
-  settings.seconds = options.seconds;
-  settings.spp = options.seconds > 0 ? 0 : options.spp > 0 ? options.spp : description.spp;
+  settings.seconds = options.seconds.value_or(0);
+  settings.spp = options.spp.value_or(options.seconds ? 0 : description.spp);
   settings.nee = options.nee == "on";
   settings.heuristic = *valueOfLabel<MisHeuristic>(options.heuristic);
   settings.guiding = guidingSettings(options);

@@ -23,10 +23,10 @@ struct SceneOptions {
 
 /// How to sample and guide.
 struct SamplingOptions {
-  std::int64_t spp = 0;
-  double seconds = 0;
-  std::string guiding = "mueller2017";
-  std::string compensation;  ///< empty: uniform on a preset, as the file says with a settings file
+  std::optional<std::int64_t> spp;
+  std::optional<double> seconds;
+  std::string guiding;       ///< preset or settings file; empty: mueller2017 with uniform compensation
+  std::string compensation;  ///< empty: as `guiding` says
   std::filesystem::path field;
   std::string nee = "on", heuristic = "balance", sampler;
   int threads = 0;

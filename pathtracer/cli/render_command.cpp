@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <guiding/version.h>
 
+#include <cmath>
 #include <ctime>
 #include <memory>
 
@@ -30,7 +31,7 @@ void fillOutputNames(RenderOptions& options) {
     return std::filesystem::path(options.output).replace_extension(extension);
   };
   if (options.png.empty()) options.png = beside(".png");
-  if (options.report.empty()) options.report = beside(".json");
+  if (options.report.empty()) options.report = beside(".report.json");
 }
 
 void checkOutputs(const RenderOptions& options) {
@@ -41,6 +42,7 @@ void checkOutputs(const RenderOptions& options) {
     throw InputError(fmt::format("--png {}: let its name end in .png", options.png.string()));
   if (std::filesystem::weakly_canonical(options.report) == std::filesystem::weakly_canonical(options.scene.file))
     throw InputError(fmt::format("--report {}: this is the scene; choose another name", options.report.string()));
+  if (!std::isfinite(options.exposure)) throw InputError("--exposure: give a number of stops, such as 1.5");
   requireReplaceable(options.output);
   requireReplaceable(options.png);
   requireReplaceable(options.report);
@@ -121,8 +123,9 @@ void renderPicture(RenderOptions options) {
   checkOutputs(options);
   if (!options.saveField.empty() && options.sampling.guiding == "none")
     throw InputError("--save-field: there is no field to save with --guiding none");
+  const AovSelection aovs = parseAovs(options.aovs);
   RenderJob job = prepareJob(options.scene, options.sampling);
-  job.settings.aovs = parseAovs(options.aovs);
+  job.settings.aovs = aovs;
   const RenderResult result = runJob(job);
   writeOutputs(options, job, result);
   tellResult(options, result);
@@ -143,7 +146,7 @@ Command addRenderCommand(CLI::App& program) {
   command->add_option("--png", options->png, "The preview (default: beside the picture)");
   command->add_option("--exposure", options->exposure, "Brightens the preview by this many stops")
       ->capture_default_str();
-  command->add_option("--report", options->report, "The report (default: beside the picture)");
+  command->add_option("--report", options->report, "The report (default: beside the picture, *.report.json)");
   command
       ->add_option("--aov", options->aovs, "More layers for the EXR, comma-separated: albedo, normal, depth, variance")
       ->delimiter(',')

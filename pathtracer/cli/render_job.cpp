@@ -7,6 +7,7 @@
 #include "cli/render_progress.h"
 #include "core/error.h"
 #include "core/replace_file.h"
+#include "integrators/check_settings.h"
 #include "integrators/render_clock.h"
 
 namespace pt {
@@ -32,6 +33,7 @@ RenderJob prepareJob(const SceneOptions& sceneOptions, const SamplingOptions& sa
   const RenderClock loading;
   job.description = loadDescription(sceneOptions);
   job.settings = renderSettings(samplingOptions, job.description);
+  checkSettings(job.settings);
   job.loadSeconds = loading.seconds();
   const RenderClock building;
   job.scene = std::make_unique<Scene>(job.description);

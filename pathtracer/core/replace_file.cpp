@@ -44,10 +44,10 @@ void replaceFile(const fs::path& target, const std::function<void(const fs::path
   if (error) failToWrite(target, error.message());
 }
 
-void replaceFile(const fs::path& target, const std::string& text) {
+void replaceFile(const fs::path& target, std::string_view bytes) {
   replaceFile(target, [&](const fs::path& temporary) {
     std::ofstream stream(temporary, std::ios::binary);
-    stream << text;
+    stream.write(bytes.data(), std::streamsize(bytes.size()));
     stream.close();
     if (!stream) failToWrite(target, std::strerror(errno));
   });

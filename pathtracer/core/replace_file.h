@@ -2,7 +2,7 @@
 
 #include <filesystem>
 #include <functional>
-#include <string>
+#include <string_view>
 
 namespace pt {
 
@@ -12,8 +12,8 @@ namespace pt {
 void replaceFile(const std::filesystem::path& target,
                  const std::function<void(const std::filesystem::path& temporary)>& write);
 
-/// Writes text by replaceFile().
-void replaceFile(const std::filesystem::path& target, const std::string& text);
+/// The same with the content at hand.
+void replaceFile(const std::filesystem::path& target, std::string_view bytes);
 
 /// Throws InputError or WorkError unless replaceFile(target) has good prospects: to be called before hours of work.
 void requireReplaceable(const std::filesystem::path& target);

@@ -1,5 +1,6 @@
 #include "film/image_io.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
@@ -66,13 +67,15 @@ Image readColours(const fs::path& file, OIIO::ImageInput& input) {
   return image;
 }
 
+/// Encodes in memory first: the libraries' own files do not tell when a disk is full.
 void writeWith(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* data) {
-  replaceFile(file, [&](const fs::path& temporary) {
-    const auto output = OIIO::ImageOutput::create(temporary.string());
-    if (!output) failToWrite(file, OIIO::geterror());
-    if (!output->open(temporary.string(), spec) || !output->write_image(type, data) || !output->close())
-      failToWrite(file, output->geterror());
-  });
+  OIIO::Filesystem::IOVecOutput memory;
+  const auto output = OIIO::ImageOutput::create(file.string(), &memory);
+  if (!output) failToWrite(file, OIIO::geterror());
+  if (!output->open(file.string(), spec) || !output->write_image(type, data) || !output->close())
+    failToWrite(file, output->geterror());
+  const std::vector<unsigned char>& bytes = memory.buffer();
+  replaceFile(file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
 /// A picture's channels side by side, as the file has them.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/error.h"
 
 namespace pt {
@@ -20,7 +22,9 @@ void checkResolution(int width, int height) {
 }
 
 void checkBudget(const RenderSettings& settings) {
-  if (!((settings.spp > 0) != (settings.seconds > 0)) || settings.spp < 0 || !(settings.seconds >= 0))
+  const bool isSpp = settings.spp > 0 && settings.seconds == 0;
+  const bool isTime = settings.spp == 0 && settings.seconds > 0 && std::isfinite(settings.seconds);
+  if (!isSpp && !isTime)
     throw InputError("give either a positive number of samples per pixel or a positive number of seconds");
   if (settings.spp > kMaxSpp)
     throw InputError(fmt::format("{} samples per pixel are too many: at most {}", settings.spp, kMaxSpp));

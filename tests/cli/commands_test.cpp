@@ -1,0 +1,56 @@
+#include <nlohmann/json.hpp>
+
+#include "catch.h"
+#include "program.h"
+
+using namespace test;
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+TEST_CASE("help and version are no errors", "[cli]") {
+  const Workspace space;
+  for (const char* command : {"render", "train", "info", "compare"}) {
+    const Outcome outcome = space.run({command, "--help"});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    CHECK_THAT(outcome.out, Contains(command));
+    CHECK_THAT(space.run({"--help"}).out, Contains(command));
+  }
+  const Outcome version = space.run({"--version"});
+  CHECK(version.status == 0);
+  CHECK_THAT(version.out, Contains("."));
+}
+
+TEST_CASE("info describes a scene to people and to scripts", "[cli]") {
+  const Workspace space;
+  space.write("wall.json", kScene);
+  const Outcome text = space.run({"info", "wall.json"});
+  CHECK(text.status == 0);
+  CHECK_THAT(text.out, Contains("8x8"));
+  CHECK_THAT(text.out, Contains("left out"));
+  const json info = json::parse(space.run({"info", "wall.json", "--json"}).out);
+  CHECK(info["triangles"] == 2);
+  CHECK(info["lights"] == 1);
+  CHECK_FALSE(info["leftOut"].empty());
+}
+
+TEST_CASE("compare prints each measure and writes the error picture", "[cli]") {
+  const Workspace space;
+  space.write("dim.json", kScene);
+  space.write("bright.json", sceneWith("\"radiance\": 2", "\"radiance\": 4"));
+  // A closed form without noise: radiance 1 and 2 on the wall.
+  for (const char* name : {"dim", "bright"})
+    REQUIRE(space
+                .run({"render", std::string(name) + ".json", "--nee", "off", "--guiding", "none", "-o",
+                      std::string(name) + ".exr", "--report", "r.json"})
+                .status == 0);
+  const Outcome outcome = space.run({"compare", "bright.exr", "dim.exr", "-o", "error.exr"});
+  INFO(outcome.out);
+  CHECK(outcome.status == 0);
+  for (const char* measure : {"relMSE", "MAPE", "SMAPE", "MSE"}) CHECK_THAT(outcome.out, Contains(measure));
+  CHECK_THAT(outcome.out, Contains("0.990099"));  // 1 / 1.01: both relMSE and MAPE
+  CHECK_THAT(outcome.out, Contains("+100.000%"));
+  CHECK(space.has("error.exr"));
+  CHECK(space.run({"compare", "bright.exr", "dim.exr", "-o", "error.png"}).status == 0);
+  CHECK(space.has("error.png"));
+}

@@ -1,0 +1,118 @@
+#include <nlohmann/json.hpp>
+
+#include "catch.h"
+#include "program.h"
+
+using namespace test;
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+TEST_CASE("render leaves a picture, a preview and a report, named after the scene", "[cli]") {
+  const Workspace space;
+  space.write("wall.json", kScene);
+  std::filesystem::create_directory(space.path("out"));
+  const Outcome outcome = space.run({"render", "wall.json", "-o", "out/wall.exr"});
+  INFO(outcome.err);
+  CHECK(outcome.status == 0);
+  CHECK(space.has("out/wall.exr"));
+  CHECK(space.has("out/wall.png"));
+  CHECK(space.has("out/wall.report.json"));
+  CHECK_THAT(outcome.out, Contains("out/wall.exr"));
+
+  std::filesystem::create_directory(space.path("hall"));
+  space.write("hall/scene.json", kScene);
+  CHECK(space.run({"render", "hall/scene.json"}).status == 0);
+  CHECK(space.has("hall.exr"));
+}
+
+TEST_CASE("the report tells what was done", "[cli]") {
+  const Workspace space;
+  space.write("wall.json", kScene);
+  REQUIRE(
+      space.run({"render", "wall.json", "--spp", "20", "--seed", "7", "--threads", "2", "--report", "r.json"}).status ==
+      0);
+  const json report = json::parse(space.read("r.json"));
+  CHECK(report["program"] == "pathtracer");
+  CHECK(report["spp"] == 20);
+  CHECK(report["interrupted"] == false);
+  CHECK(report["settings"]["seed"] == 7);
+  CHECK(report["settings"]["threads"] == 2);
+  CHECK(report["settings"]["guiding"]["field"]["compensation"]["form"] == "uniform");
+  CHECK(report["counters"]["paths"] == 20 * 64);
+  CHECK(report["counters"]["rejectedSamples"] == 0);
+  CHECK(report["iterations"].size() >= 2);
+  CHECK(report["field"]["samples"] > 0);
+  CHECK(report["scene"]["leftOut"].size() > 0);
+  CHECK(report["peakMemoryBytes"] > 1000000);
+  CHECK(report["renderSeconds"] > 0);
+}
+
+TEST_CASE("guiding presets and compensation are what was asked for", "[cli]") {
+  const Workspace space;
+  space.write("wall.json", kScene);
+  space.write("g.json", R"({"preset": "mueller2017", "field": {"compensation": {"form": "clip", "strength": 0.5}}})");
+  const auto guiding = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"render", "wall.json", "--report", "r.json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = space.run(arguments);
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    return json::parse(space.read("r.json"))["settings"]["guiding"];
+  };
+  CHECK(guiding({"--guiding", "none"}).is_null());
+  CHECK(guiding({"--guiding", "mueller2017"})["field"]["compensation"]["form"] == "none");
+  CHECK(guiding({"--guiding", "mueller2017", "--compensation", "clip:0.25"})["field"]["compensation"] ==
+        json{{"form", "clip"}, {"strength", 0.25}});
+  CHECK(guiding({"--guiding", "g.json"})["field"]["compensation"] == json{{"form", "clip"}, {"strength", 0.5}});
+  CHECK(guiding({"--guiding", "g.json", "--compensation", "none"})["field"]["compensation"]["form"] == "none");
+}
+
+TEST_CASE("a picture is the same on any number of threads, and another for another seed", "[cli]") {
+  const Workspace space;
+  space.write("wall.json", kScene);
+  const auto compare = [&](const std::string& name) {
+    return space.run({"compare", name, "one.exr"}).out.find("relMSE                0                        0") !=
+           std::string::npos;
+  };
+  REQUIRE(space.run({"render", "wall.json", "--threads", "1", "-o", "one.exr"}).status == 0);
+  REQUIRE(space.run({"render", "wall.json", "--threads", "3", "-o", "three.exr"}).status == 0);
+  REQUIRE(space.run({"render", "wall.json", "--seed", "2", "-o", "seed.exr"}).status == 0);
+  CHECK(compare("three.exr"));
+  CHECK_FALSE(compare("seed.exr"));
+}
+
+TEST_CASE("an interrupted render keeps what it has", "[cli]") {
+  for (const char* guiding : {"none", "mueller2017"}) {
+    const Workspace space;
+    space.write("wall.json", kScene);
+    Process process = space.start({"render", "wall.json", "--spp", "1000000000", "--guiding", guiding});
+    REQUIRE(process.waitForError("iteration 1"));
+    process.interrupt();
+    const Outcome outcome = process.wait();
+    INFO(outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out, Contains("interrupted"));
+    CHECK(space.has("wall.exr"));
+    CHECK(space.has("wall.png"));
+    CHECK(json::parse(space.read("wall.report.json"))["interrupted"] == true);
+  }
+}
+
+TEST_CASE("train, info and render --field belong together", "[cli]") {
+  const Workspace space;
+  space.write("wall.json", kScene);
+  const Outcome trained = space.run({"train", "wall.json", "--spp", "30", "--report", "t.json"});
+  INFO(trained.err);
+  REQUIRE(trained.status == 0);
+  CHECK(json::parse(space.read("t.json"))["command"] == "train");
+  REQUIRE(space.has("wall.field"));
+  const Outcome info = space.run({"info", "wall.field", "--json"});
+  REQUIRE(info.status == 0);
+  CHECK(json::parse(info.out)["samples"] > 0);
+  REQUIRE(space.run({"render", "wall.json", "--field", "wall.field", "--report", "r.json"}).status == 0);
+  const json report = json::parse(space.read("r.json"));
+  CHECK(report["iterations"].size() == 1);
+  CHECK(report["counters"]["guidedShare"] > 0.5);
+  REQUIRE(space.run({"render", "wall.json", "--spp", "30", "--save-field", "s.field"}).status == 0);
+  CHECK(space.run({"info", "s.field"}).status == 0);
+}
