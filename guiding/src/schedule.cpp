@@ -14,6 +14,8 @@ constexpr std::int64_t kAutomaticMinSpp = 256;
 Status ScheduleSettings::validate() const {
   if (sppPerPass < 1 || sppPerPass > 1 << 20)
     return Error{ErrorCode::InvalidArgument, "sppPerPass must lie in [1, 1048576]"};
+  if (int(combination) < 0 || combination > SampleCombination::InverseVariance)
+    return Error{ErrorCode::InvalidArgument, "combination is not one of its values"};
   if (combinedIterations < 1) return Error{ErrorCode::InvalidArgument, "combinedIterations must be at least 1"};
   return Success{};
 }
@@ -86,8 +88,9 @@ std::vector<double> TrainingSchedule::lastWeights() const {
 
   // Iterations that share a density are one run of samples.
   const std::size_t last = m_iterations.size() - 1;
-  if (m_iterations[last].plan.keepsDensity && last > 0) {
-    const double a = double(m_iterations[last - 1].outcome.spp), b = double(m_iterations[last].outcome.spp);
+  const double a = last > 0 ? double(m_iterations[last - 1].outcome.spp) : 0,
+               b = double(m_iterations[last].outcome.spp);
+  if (m_iterations[last].plan.keepsDensity && last > 0 && a + b > 0) {
     weights[best] = 0;
     weights[last - 1] = a / (a + b);
     weights[last] = b / (a + b);
@@ -109,7 +112,8 @@ std::vector<double> TrainingSchedule::inverseVarianceWeights() const {
     total = 0;
     for (std::size_t i = first; i < count; ++i) total += weights[i] = double(m_iterations[i].outcome.spp);
   }
-  for (double& w : weights) w = total > 0 ? w / total : 0;
+  if (!(total > 0)) weights.back() = total = 1;
+  for (double& w : weights) w /= total;
   return weights;
 }
 

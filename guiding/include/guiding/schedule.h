@@ -51,7 +51,7 @@ class TrainingSchedule {
  public:
   static constexpr std::int64_t kUntilTimeIsOver = std::int64_t(1) << 40;
 
-  /// Exactly one of the budgets is positive.
+  /// The budget in samples per pixel if that is positive, otherwise the one in seconds.
   TrainingSchedule(const ScheduleSettings& settings, std::int64_t sppBudget, double secondsBudget);
 
   /// The next iteration, given what has been reported so far.
@@ -60,7 +60,7 @@ class TrainingSchedule {
   /// Tells how the iteration that next() planned came out.
   void report(const IterationPlan& plan, const IterationOutcome& outcome);
 
-  /// Weight of each reported iteration's picture in the final one; sums to 1 (empty if nothing was rendered).
+  /// Weight of each reported iteration's picture in the final one; sums to 1 (empty if nothing was reported).
   std::vector<double> imageWeights() const;
 
  private:

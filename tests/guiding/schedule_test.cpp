@@ -1,0 +1,237 @@
+#include "guiding/schedule.h"
+
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include "catch.h"
+
+using namespace guiding;
+
+namespace {
+
+struct Planned {
+  IterationPlan plan;
+  IterationOutcome outcome;
+};
+
+/// Runs a schedule to its end. `outcomeOf(plan)` says how an iteration came out.
+template <class OutcomeOf>
+std::vector<Planned> run(TrainingSchedule& schedule, OutcomeOf&& outcomeOf) {
+  std::vector<Planned> iterations;
+  for (IterationPlan plan = schedule.next(); plan.spp > 0; plan = schedule.next()) {
+    REQUIRE(iterations.size() < 100);
+    const IterationOutcome outcome = outcomeOf(plan);
+    schedule.report(plan, outcome);
+    iterations.push_back({plan, outcome});
+  }
+  return iterations;
+}
+
+std::vector<std::int64_t> sppOf(const std::vector<Planned>& iterations) {
+  std::vector<std::int64_t> spp;
+  for (const Planned& i : iterations) spp.push_back(i.outcome.spp);
+  return spp;
+}
+
+/// The variance of an iteration whose samples have variance `ofSample`.
+auto withVariance(std::vector<double> ofSample) {
+  return [=](const IterationPlan& plan) {
+    const double v = ofSample[std::min<std::size_t>(std::size_t(plan.index), ofSample.size() - 1)];
+    return IterationOutcome{plan.spp, v / double(plan.spp), 0.01 * double(plan.spp)};
+  };
+}
+
+ScheduleSettings settings(SampleCombination combination, int sppPerPass = 4) {
+  ScheduleSettings s;
+  s.combination = combination;
+  s.sppPerPass = sppPerPass;
+  return s;
+}
+
+double sum(const std::vector<double>& x) {
+  return std::accumulate(x.begin(), x.end(), 0.0);
+}
+
+/// A renderer of `sppPerSecond` that stops a pass of 4 spp after the budget is spent.
+auto clocked(double budget, double sppPerSecond, double& elapsed) {
+  return [&elapsed, budget, sppPerSecond](const IterationPlan& plan) {
+    IterationOutcome outcome{0, 1, 0};
+    while (outcome.spp < plan.spp && (outcome.spp == 0 || elapsed < budget)) {
+      outcome.spp += 4;
+      outcome.seconds += 4 / sppPerSecond;
+      elapsed += 4 / sppPerSecond;
+    }
+    return outcome;
+  };
+}
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+TEST_CASE("Iterations double, and the last takes the rest") {
+  TrainingSchedule schedule(settings(SampleCombination::Discard), 127, 0);
+  const auto iterations = run(schedule, withVariance({1}));
+  CHECK(sppOf(iterations) == std::vector<std::int64_t>{4, 8, 16, 32, 67});  // 64 would leave 3
+  for (std::size_t i = 0; i < iterations.size(); ++i) {
+    CHECK(iterations[i].plan.index == int(i));
+    CHECK(iterations[i].plan.isFinal == (i + 1 == iterations.size()));
+    CHECK(!iterations[i].plan.keepsDensity);
+  }
+}
+
+TEST_CASE("Every sample budget is met exactly, by doubling iterations and one final one") {
+  std::mt19937 engine(1);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const int perPass = 1 + int(engine() % 20);
+    const std::int64_t budget = 1 + engine() % 100'000;
+    const auto combination = SampleCombination(engine() % 3);
+    TrainingSchedule schedule(settings(combination, perPass), budget, 0);
+    const auto iterations = run(schedule, withVariance({1, 0.5, 0.25, 0.125, 0.1, 0.09, 0.09, 0.09}));
+    const std::vector<std::int64_t> spp = sppOf(iterations);
+    CAPTURE(perPass, budget, int(combination));
+    REQUIRE(std::accumulate(spp.begin(), spp.end(), std::int64_t(0)) == budget);
+    REQUIRE(iterations.back().plan.isFinal);
+    for (std::size_t i = 0; i + 1 < spp.size(); ++i) REQUIRE(spp[i] == std::int64_t(perPass) << i);
+    if (spp.size() > 1 && !iterations.back().plan.keepsDensity)
+      REQUIRE(spp.back() >= std::int64_t(perPass) << (spp.size() - 1));
+    REQUIRE(sum(schedule.imageWeights()) == Approx(1));
+    REQUIRE(schedule.imageWeights().size() == iterations.size());
+  }
+}
+
+TEST_CASE("Budgets below one pass are one final iteration") {
+  for (const std::int64_t budget : {1, 3, 4, 11}) {
+    TrainingSchedule schedule(settings(SampleCombination::Automatic), budget, 0);
+    CHECK(sppOf(run(schedule, withVariance({1}))) == std::vector<std::int64_t>{budget});
+  }
+}
+
+TEST_CASE("No budget: nothing to do, and no picture") {
+  for (const double seconds : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    const TrainingSchedule schedule(ScheduleSettings(), 0, seconds);
+    CHECK(schedule.next().spp == 0);
+    CHECK(schedule.imageWeights().empty());
+  }
+}
+
+TEST_CASE("The largest budgets do not overflow") {
+  TrainingSchedule schedule(settings(SampleCombination::Discard, 1 << 20), std::int64_t(1) << 55, 0);
+  for (const Planned& i : run(schedule, withVariance({1}))) CHECK(i.plan.spp > 0);
+}
+
+TEST_CASE("Training ends when another doubling would not pay, and the density is kept") {
+  TrainingSchedule schedule(settings(SampleCombination::Automatic), 10'000, 0);
+  // Each sample is as good as those before: the third iteration that may decide (after 4 + ... + 256 spp) stops.
+  const auto iterations = run(schedule, withVariance({1}));
+  REQUIRE(iterations.size() == 8);
+  CHECK(iterations[6].plan.spp == 256);
+  CHECK(iterations[7].plan.keepsDensity);
+  CHECK(iterations[7].plan.isFinal);
+  const std::vector<double> weights = schedule.imageWeights();
+  const double kept = 256, last = double(iterations[7].outcome.spp);
+  CHECK(weights[6] == Approx(kept / (kept + last)));
+  CHECK(weights[7] == Approx(last / (kept + last)));
+  CHECK(sum(weights) == Approx(1));
+}
+
+TEST_CASE("Training goes on while it halves the variance of a sample") {
+  TrainingSchedule schedule(settings(SampleCombination::Automatic), 10'000, 0);
+  std::vector<double> halving;
+  for (int i = 0; i < 20; ++i) halving.push_back(std::ldexp(1.0, -i));
+  const auto iterations = run(schedule, withVariance(halving));
+  CHECK(!iterations.back().plan.keepsDensity);
+  CHECK(schedule.imageWeights().back() == 1);
+}
+
+TEST_CASE("An unknown variance does not end training") {
+  TrainingSchedule schedule(settings(SampleCombination::Automatic), 10'000, 0);
+  for (const Planned& i : run(schedule, withVariance({0}))) CHECK(!i.plan.keepsDensity);
+}
+
+TEST_CASE("Discard shows the last iteration, or the one before where the last was cut short") {
+  TrainingSchedule schedule(settings(SampleCombination::Discard), 1000, 0);
+  const std::int64_t spp[] = {4, 8, 16};
+  for (int i = 0; i < 3; ++i) schedule.report(schedule.next(), {spp[i], 1, 1});
+  CHECK(schedule.imageWeights() == std::vector<double>{0, 0, 1});
+  schedule.report(schedule.next(), {12, 1, 1});
+  CHECK(schedule.imageWeights() == std::vector<double>{0, 0, 1, 0});
+}
+
+TEST_CASE("Inverse variance weights of the last iterations") {
+  ScheduleSettings s = settings(SampleCombination::InverseVariance);
+  s.combinedIterations = 3;
+  TrainingSchedule schedule(s, 10'000, 0);
+  for (const double variance : {1.0, 0.5, 0.25, 0.125}) schedule.report(schedule.next(), {4, variance, 1});
+  const std::vector<double> weights = schedule.imageWeights();
+  CHECK(weights[0] == 0);
+  CHECK(weights[1] == Approx(2.0 / 14));
+  CHECK(weights[2] == Approx(4.0 / 14));
+  CHECK(weights[3] == Approx(8.0 / 14));
+}
+
+TEST_CASE("Weights sum to one whatever was reported") {
+  std::mt19937 engine(2);
+  const double odd[] = {0, 1, 1e-320, 1e300, kInf, -1, std::numeric_limits<double>::quiet_NaN()};
+  for (int trial = 0; trial < 3000; ++trial) {
+    ScheduleSettings s = settings(SampleCombination(trial % 3));
+    s.combinedIterations = 1 + int(engine() % 5);
+    TrainingSchedule schedule(s, 1 << 20, 0);
+    const int count = 1 + int(engine() % 6);
+    for (int i = 0; i < count; ++i) {
+      IterationPlan plan = schedule.next();
+      plan.keepsDensity = engine() % 4 == 0;
+      schedule.report(plan, {std::int64_t(engine() % 3) * 4, odd[engine() % 7], 0});
+    }
+    const std::vector<double> weights = schedule.imageWeights();
+    REQUIRE(weights.size() == std::size_t(count));
+    for (const double w : weights) REQUIRE((w >= 0 && w <= 1));
+    REQUIRE(sum(weights) == Approx(1));
+  }
+}
+
+TEST_CASE("A time budget is spent, training counted in") {
+  for (const auto combination :
+       {SampleCombination::Discard, SampleCombination::Automatic, SampleCombination::InverseVariance})
+    for (const double budget : {1e-9, 0.5, 1.0, 7.0, 100.0}) {
+      TrainingSchedule schedule(settings(combination), 0, budget);
+      double elapsed = 0;
+      const auto iterations = run(schedule, clocked(budget, 40, elapsed));
+      CAPTURE(int(combination), budget);
+      CHECK(elapsed >= budget);
+      CHECK(elapsed < budget + 0.11);
+      CHECK(sum(schedule.imageWeights()) == Approx(1));
+      for (std::size_t i = 0; i < iterations.size(); ++i)
+        CHECK(iterations[i].plan.spp ==
+              (iterations[i].plan.isFinal ? TrainingSchedule::kUntilTimeIsOver : std::int64_t(4) << i));
+    }
+}
+
+TEST_CASE("Without end, the schedule doubles without end") {
+  TrainingSchedule schedule(settings(SampleCombination::Discard), 0, kInf);
+  for (int i = 0; i < 40; ++i) {
+    const IterationPlan plan = schedule.next();
+    REQUIRE(plan.spp > 0);
+    REQUIRE(!plan.isFinal);
+    schedule.report(plan, {plan.spp, 1, 1});
+  }
+}
+
+TEST_CASE("Schedule settings out of range are refused by name") {
+  ScheduleSettings s;
+  CHECK(s.validate().ok());
+  for (const int bad : {0, -1, (1 << 20) + 1}) {
+    s = {};
+    s.sppPerPass = bad;
+    REQUIRE(!s.validate());
+    CHECK_THAT(s.validate().error().text, Catch::Contains("sppPerPass"));
+  }
+  s = {};
+  s.combinedIterations = 0;
+  REQUIRE(!s.validate());
+  CHECK_THAT(s.validate().error().text, Catch::Contains("combinedIterations"));
+  s = {};
+  s.combination = SampleCombination(7);
+  CHECK(!s.validate());
+}
