@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -19,13 +20,19 @@ struct SpatialLeaf {
   AdamFraction adam;              ///< with FractionMode::Adam
   FractionSlopes slopes;          ///< with FractionMode::Fit; of this iteration
 
+  void startAt(const FieldSettings& settings) noexcept {
+    fraction = settings.bsdfSamplingFraction;
+    if (settings.fractionMode == FractionMode::Fixed) return;
+    fraction = std::clamp(fraction, kMinFraction, kMaxFraction);  // a guide that is never sampled teaches nothing
+    adam.startAt(fraction);
+  }
   std::size_t memoryBytes() const noexcept { return sizeof(*this) + building.memoryBytes(); }
 };
 
 struct Field::State {
   State(const Imath::Box3f& box, const FieldSettings& s)
       : settings(s), bounds(box), tree(box), leaves(1), density(s.directionMap) {
-    leaves[0].fraction = s.bsdfSamplingFraction;
+    leaves[0].startAt(s);
   }
 
   FieldSettings settings;

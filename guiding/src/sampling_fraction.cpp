@@ -19,6 +19,10 @@ double sigmoid(double x) noexcept {
 
 }  // namespace
 
+void AdamFraction::startAt(float fraction) noexcept {
+  logit = std::log(double(fraction) / (1 - double(fraction)));
+}
+
 void AdamFraction::learn(std::span<const FractionRecord> records, FractionLoss loss) noexcept {
   constexpr double kRate = 0.01, kBeta1 = 0.9, kBeta2 = 0.999, kEpsilon = 1e-8, kRegularisation = 0.01;
   constexpr double kLargestWeight = 1e100;

@@ -26,6 +26,7 @@ struct AdamFraction {
   double batchGradient = 0;
   std::uint32_t batchCount = 0, steps = 0;
 
+  void startAt(float fraction) noexcept;
   void learn(std::span<const FractionRecord> records, FractionLoss loss) noexcept;
   float fraction() const noexcept;
 };

@@ -1,23 +1,11 @@
-#include "guiding/serialize.h"
-
-#include <cerrno>
-#include <cmath>
-#include <cstring>
-#include <fstream>
-#include <random>
+#include "serialize.h"
 
 #include "byte_stream.h"
-#include "field_state.h"
 #include "validate.h"
 
-// File: 8 bytes magic, u32 version, u64 payload size, u64 checksum of the payload, payload. All little-endian.
 namespace guiding {
 
 namespace {
-
-constexpr char kMagic[8] = {'S', 'D', 'T', 'F', 'I', 'E', 'L', 'D'};
-constexpr std::uint32_t kVersion = 1;
-constexpr std::size_t kHeaderBytes = 8 + 4 + 8 + 8;
 
 void putSettings(ByteWriter& out, const FieldSettings& s) {
   out.put(std::uint32_t(s.directionMap));
@@ -96,7 +84,8 @@ void putLeaf(ByteWriter& out, const SpatialLeaf& leaf) {
   putFraction(out, leaf);
   out.put(std::uint64_t(leaf.building.nodes().size()));
   for (const auto& node : leaf.building.nodes()) {
-    for (const double sum : node.sum) out.put(sum);
+    // Sums of subdivided cells belong to build().
+    for (int c = 0; c < 4; ++c) out.put(node.links.isLeaf(c) ? node.sum[c] : 0.0);
     putLinks(out, node.links);
   }
 }
@@ -159,6 +148,8 @@ void getDensity(ByteReader& in, GuidingDensity& density) {
   density.assign(std::move(trees), std::move(nodes));
 }
 
+}  // namespace
+
 std::vector<std::uint8_t> payloadOf(const Field::State& state) {
   ByteWriter out;
   putSettings(out, state.settings);
@@ -180,7 +171,6 @@ std::vector<std::uint8_t> payloadOf(const Field::State& state) {
   return out.bytes();
 }
 
-/// Null unless the bytes are exactly one sound field.
 std::unique_ptr<Field::State> stateOf(std::span<const std::uint8_t> payload) {
   ByteReader in(payload);
   FieldSettings settings;
@@ -196,12 +186,14 @@ std::unique_ptr<Field::State> stateOf(std::span<const std::uint8_t> payload) {
   state->droppedSamples = in.get<std::uint64_t>();
   state->outsideSamples = in.get<std::uint64_t>();
   state->memoryCapReached = in.get<std::uint8_t>() != 0;
+  if (state->iterations < 0) return nullptr;
 
   std::vector<std::uint32_t> words(in.getCount(sizeof(std::uint32_t)));
   for (std::uint32_t& word : words) word = in.get<std::uint32_t>();
   if (in.failed() || !state->tree.assignNodes(std::move(words))) return nullptr;
 
   const std::size_t leaves = in.getCount(kLeafBytes);
+  if (leaves != state->tree.leafCount()) return nullptr;
   state->leaves.resize(leaves);
   state->densityOfLeaf.resize(leaves);
   for (std::size_t leaf = 0; leaf < leaves && !in.failed(); ++leaf) {
@@ -212,86 +204,6 @@ std::unique_ptr<Field::State> stateOf(std::span<const std::uint8_t> payload) {
   if (in.failed() || in.remaining() != 0 || !validateState(*state)) return nullptr;
   state->hasGuide = !state->density.trees().empty();
   return state;
-}
-
-Error ioError(const std::filesystem::path& path, const char* what) {
-  return {ErrorCode::Io,
-          path.string() + ": " + what + (errno != 0 ? std::string(": ") + std::strerror(errno) : std::string())};
-}
-
-Error formatError(const std::filesystem::path& path, const char* what) {
-  return {ErrorCode::Format, path.string() + ": " + what};
-}
-
-bool writeAll(const std::filesystem::path& path, std::span<const std::uint8_t> payload) {
-  ByteWriter header;
-  for (const char c : kMagic) header.put(std::uint8_t(c));
-  header.put(kVersion);
-  header.put(std::uint64_t(payload.size()));
-  header.put(checksum(payload));
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(header.bytes().data()), std::streamsize(header.bytes().size()));
-  file.write(reinterpret_cast<const char*>(payload.data()), std::streamsize(payload.size()));
-  file.close();
-  return file.good();
-}
-
-}  // namespace
-
-/// The one friend of Field that turns it into bytes and back.
-class FieldFile {
- public:
-  static const Field::State& stateOf(const Field& field) { return *field.m_state; }
-  static Field fieldOf(std::unique_ptr<Field::State> state) { return Field(std::move(state)); }
-};
-
-Status save(const Field& field, const std::filesystem::path& path) {
-  const std::vector<std::uint8_t> payload = payloadOf(FieldFile::stateOf(field));
-  std::filesystem::path temporary = path;
-  temporary += ".tmp" + std::to_string(std::random_device{}());
-  errno = 0;
-  std::error_code failed;
-  if (!writeAll(temporary, payload)) {
-    const Error error = ioError(path, "cannot be written");
-    std::filesystem::remove(temporary, failed);
-    return error;
-  }
-  std::filesystem::rename(temporary, path, failed);
-  if (failed) {
-    const Error error{ErrorCode::Io, path.string() + ": cannot be written: " + failed.message()};
-    std::filesystem::remove(temporary, failed);
-    return error;
-  }
-  return Success{};
-}
-
-Result<Field> load(const std::filesystem::path& path) {
-  errno = 0;
-  std::error_code failed;
-  if (!std::filesystem::is_regular_file(path, failed))
-    return Error{ErrorCode::Io, path.string() + ": there is no such file, or it is not a regular one"};
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) return ioError(path, "cannot be opened");
-  const std::streamoff size = file.tellg();
-  std::vector<std::uint8_t> bytes(size > 0 ? std::size_t(size) : 0);
-  file.seekg(0);
-  file.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()));
-  if (!file) return ioError(path, "cannot be read");
-
-  if (bytes.size() < kHeaderBytes || std::memcmp(bytes.data(), kMagic, sizeof(kMagic)) != 0)
-    return formatError(path, "is not a guiding field; train one and save it with this library");
-  ByteReader header{std::span<const std::uint8_t>(bytes).subspan(sizeof(kMagic), kHeaderBytes - sizeof(kMagic))};
-  if (header.get<std::uint32_t>() != kVersion)
-    return formatError(path, "was written by another version of the library; train the field again");
-  const auto payloadSize = header.get<std::uint64_t>();
-  const auto expected = header.get<std::uint64_t>();
-  const auto payload = std::span<const std::uint8_t>(bytes).subspan(kHeaderBytes);
-  if (payload.size() != payloadSize)
-    return formatError(path, "is truncated or has bytes after its end; train the field again");
-  if (checksum(payload) != expected) return formatError(path, "is damaged (wrong checksum); train the field again");
-  std::unique_ptr<Field::State> state = stateOf(payload);
-  if (!state) return formatError(path, "holds an inconsistent field; train the field again");
-  return FieldFile::fieldOf(std::move(state));
 }
 
 }  // namespace guiding

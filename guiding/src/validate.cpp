@@ -25,13 +25,23 @@ Status validateBuilding(const SpatialLeaf& leaf, std::size_t index, int maxDepth
   return Success{};
 }
 
+bool fractionIsSound(const SpatialLeaf& leaf) {
+  const AdamFraction& adam = leaf.adam;
+  for (const double x : {adam.logit, adam.firstMoment, adam.secondMoment, adam.batchGradient})
+    if (!std::isfinite(x)) return false;
+  for (const double slope : leaf.slopes.slope)
+    if (!std::isfinite(slope)) return false;
+  return leaf.fraction > 0 && leaf.fraction <= 1 && adam.secondMoment >= 0;
+}
+
 bool gridIsSound(const GuidingDensity::Tree& tree) {
   for (int y = 0; y < Grid::kSize; ++y) {
     if (tree.grid.upTo[0][y] != 0 || !(tree.grid.rowUpTo[y] >= 0)) return false;
     if (y > 0 && tree.grid.rowUpTo[y] != tree.grid.rowUpTo[y - 1] + tree.grid.upTo[Grid::kSize][y - 1]) return false;
     for (int x = 0; x < Grid::kSize; ++x) {
       const float mass = tree.grid.mass(x, y);
-      if (!(mass >= 0) || (mass == 0 && !tree.isLeafCell(x * Grid::kSize + y))) return false;
+      if (!(mass == 0 || mass >= Grid::kSmallestMass)) return false;
+      if (mass == 0 && !tree.isLeafCell(x * Grid::kSize + y)) return false;
     }
   }
   return tree.grid.rowUpTo[0] == 0 && std::abs(tree.grid.total() - 1) < 4e-6f;
@@ -52,7 +62,7 @@ Status validateFrozen(const GuidingDensity& density, std::size_t index, int maxD
   if (!gridIsSound(tree)) return violation("grid of frozen tree", index);
   if (!(tree.bsdfSamplingFraction > 0 && tree.bsdfSamplingFraction <= 1))
     return violation("fraction of frozen tree", index);
-  if (!(tree.emptyArea >= 0 && tree.emptyArea < 1)) return violation("empty area of frozen tree", index);
+  if (!(tree.emptyArea >= 0 && tree.emptyArea <= 1)) return violation("empty area of frozen tree", index);
 
   for (std::uint32_t i = 0; i < tree.nodeCount; ++i) {
     const GuidingDensity::Node& node = nodes[i];
@@ -73,6 +83,7 @@ Status validateState(const Field::State& state) {
   for (std::size_t leaf = 0; leaf < state.leaves.size(); ++leaf) {
     const Status building = validateBuilding(state.leaves[leaf], leaf, maxDepth);
     if (!building) return building;
+    if (!fractionIsSound(state.leaves[leaf])) return violation("learned fraction of spatial leaf", leaf);
     const std::uint32_t tree = state.densityOfLeaf[leaf];
     if (tree != GuidingDensity::kNoGuide && tree >= state.density.trees().size())
       return violation("density of spatial leaf", leaf);

@@ -9,10 +9,10 @@ namespace guiding {
 
 /// Writes the field (versioned, little-endian, checksummed) to a temporary name and renames it, so that an old file is
 /// never lost.
-Status save(const Field& field, const std::filesystem::path& path);
+Status save(const Field& field, const std::filesystem::path& path) noexcept;
 
 /// Reads a field that save() wrote. Foreign, truncated, corrupted or newer files give ErrorCode::Format; sizes are
 /// checked against the file's length before anything is allocated.
-Result<Field> load(const std::filesystem::path& path);
+Result<Field> load(const std::filesystem::path& path) noexcept;
 
 }  // namespace guiding

@@ -72,8 +72,8 @@ struct FieldSettings {
   SpatialFilter spatialFilter = SpatialFilter::Nearest;
   DirectionalFilter directionalFilter = DirectionalFilter::Nearest;
 
-  /// Probability of sampling the BSDF rather than the guide; where it is learned, what learning starts from. Range: (0,
-  /// 1].
+  /// Probability of sampling the BSDF rather than the guide. Range: (0, 1]; 1: no guide. Where it is learned, what
+  /// learning starts from (but within [0.05, 0.95], as what it learns).
   float bsdfSamplingFraction = 0.5f;
   FractionMode fractionMode = FractionMode::Fixed;
   FractionLoss fractionLoss = FractionLoss::KullbackLeibler;

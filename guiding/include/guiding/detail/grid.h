@@ -18,7 +18,8 @@ struct alignas(32) Grid {
   static constexpr int kSize = 1 << kDepth;
   static constexpr int kCells = kSize * kSize;
   static constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
-  using Row = std::array<float, kSize>;  ///< one number for each y
+  static constexpr float kSmallestMass = 1e-30f;  ///< of a cell that is not empty
+  using Row = std::array<float, kSize>;           ///< one number for each y
 
   Row rowUpTo;                      ///< mass of all rows before row y
   std::array<Row, kSize + 1> upTo;  ///< [x][y]: mass of row y's cells before column x; [kSize][y]: of the whole row
@@ -28,11 +29,10 @@ struct alignas(32) Grid {
 
   /// Takes masses [x][y] that add up to about 1. Those too small to be divided by count as empty.
   void assign(const std::array<Row, kSize>& masses) noexcept {
-    constexpr float kSmallest = 1e-30f;
     upTo[0].fill(0);
     for (int x = 0; x < kSize; ++x)
       for (int y = 0; y < kSize; ++y)
-        upTo[x + 1][y] = upTo[x][y] + (masses[x][y] > kSmallest ? masses[x][y] : 0.0f);
+        upTo[x + 1][y] = upTo[x][y] + (masses[x][y] > 2 * kSmallestMass ? masses[x][y] : 0.0f);
     sumRows();
   }
 
