@@ -233,13 +233,17 @@ EmbreeAccel::~EmbreeAccel() = default;
 bool EmbreeAccel::intersect(const Ray& ray, AccelHit& hit) const noexcept {
   RTCRayHit query;
   setRay(query.ray, ray);
-  for (;;) {
+  // False hits are rare and a second one behind the first is rarer; the bound is there so that no ray can take forever.
+  constexpr int kMostFalseHits = 64;
+  for (int falseHits = 0;; ++falseHits) {
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     intersectNearest(m_impl->world.get(), query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    if (!m_impl->isFalse(query, ray.tMin)) break;
-    query.ray.tnear = std::nextafter(query.ray.tfar, std::numeric_limits<float>::infinity());
+    if (falseHits == kMostFalseHits || !m_impl->isFalse(query, ray.tMin)) break;
+    // Subnormal distances may count as zero, so the next one is at least normal.
+    const float behind = std::max(query.ray.tfar, std::numeric_limits<float>::min());
+    query.ray.tnear = std::nextafter(behind, std::numeric_limits<float>::infinity());
     query.ray.tfar = ray.tMax;
   }
   const std::uint32_t instance = query.hit.instID[0];
