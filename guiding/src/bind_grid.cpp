@@ -15,12 +15,15 @@ struct PlainSum {
   float total() const noexcept { return sumOfLanes(sum); }
 };
 
-void normalise(GridRows& rows, float& total) noexcept {
+/// Scales to a sum of 1; false if there is nothing to scale.
+bool normalise(GridRows& rows) noexcept {
   PlainSum sum;
   for (const Float8& row : rows) sum.add(row);
-  total = sum.total();
-  const float scale = total > 0 ? 1 / total : 0;
+  const float total = sum.total();
+  if (!(total > std::numeric_limits<float>::min() && total <= std::numeric_limits<float>::max())) return false;
+  const float scale = 1 / total;
   for (Float8& row : rows) row *= scale;
+  return true;
 }
 
 /// target (normalised) becomes the free technique's masses. Same equations as compensate() in mis.h.
@@ -36,9 +39,7 @@ bool compensateGrid(GridRows& target, const GridRows& other, CompensationForm fo
     target[x] = target[x] * inverse - other[x] * alpha;
     atLeast(target[x], Float8{});
   }
-  float total;
-  normalise(target, total);
-  return total > 0;
+  return normalise(target);
 }
 
 /// Cell means of BSDF * cos (up to a factor) and of the BSDF sampler's density.
@@ -70,9 +71,7 @@ bool bindGrid(const GridGeometry& geometry, const Grid& learned, std::span<const
   for (int x = 0; x < Grid::kSize; ++x)
     target[x] *= std::bit_cast<Float8>(learned.upTo[x + 1]) - std::bit_cast<Float8>(learned.upTo[x]);
 
-  float total;
-  normalise(target, total);
-  if (!(total > std::numeric_limits<float>::min()) || !(total <= std::numeric_limits<float>::max())) return false;
+  if (!normalise(target)) return false;
   if (!compensateGrid(target, sampled, form, assumedFraction)) return false;
   out.assign(std::bit_cast<std::array<Grid::Row, Grid::kSize>>(target));
   return true;
