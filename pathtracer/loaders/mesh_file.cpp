@@ -12,6 +12,7 @@
 #include "loaders/file_search.h"
 #include "loaders/mesh_join.h"
 #include "loaders/mesh_normals.h"
+#include "loaders/ply_header.h"
 
 namespace pt {
 namespace {
@@ -86,12 +87,36 @@ void checkFinite(const TriangleMesh& mesh, const std::string& file) {
   }
 }
 
-/// What is read beside geometry only costs time and memory.
-void leaveOutUnused(Assimp::Importer& importer) {
+/// Whether there is a face of more than three corners. Throws InputError for one that refers to no vertex: assimp
+/// checks neither before it goes on to use them.
+bool checkFaces(const aiScene& scene, const std::string& file) {
+  bool hasPolygons = false;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      hasPolygons = hasPolygons || face.mNumIndices > 3;
+      for (unsigned i = 0; i < face.mNumIndices; ++i)
+        if (face.mIndices[i] >= mesh.mNumVertices)
+          throw InputError(
+              fmt::format("{}: face {} refers to vertex {} of {}", file, f, face.mIndices[i], mesh.mNumVertices));
+    }
+  }
+  return hasPolygons;
+}
+
+/// Reads the geometry and nothing else, as triangles.
+const aiScene& import(Assimp::Importer& importer, const std::string& file) {
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_COLORS | aiComponent_TANGENTS_AND_BITANGENTS |
                                                           aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
                                                           aiComponent_TEXTURES | aiComponent_LIGHTS |
                                                           aiComponent_CAMERAS);
+  const aiScene* scene = importer.ReadFile(file, aiProcess_RemoveComponent);
+  // Only where there are polygons: the step insists on finding some.
+  if (scene && checkFaces(*scene, file)) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  if (!scene || !scene->mRootNode)
+    throw InputError(fmt::format("{}: cannot read the mesh: {}", file, importer.GetErrorString()));
+  return *scene;
 }
 
 }  // namespace
@@ -105,14 +130,11 @@ TriangleMesh readMesh(const MeshFile& file) {
   const std::string name = file.path.string();
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file.path, ignored)) throw InputError(name + ": no such mesh file");
+  if (lowerCaseEnding(file.path) == ".ply") checkPlyHeader(file.path);
   Assimp::Importer importer;
-  leaveOutUnused(importer);
-  const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_RemoveComponent);
-  if (!scene || !scene->mRootNode)
-    throw InputError(fmt::format("{}: cannot read the mesh: {}", name, importer.GetErrorString()));
-
+  const aiScene& scene = import(importer, name);
   MeshCollector collector(file);
-  collector.addNode(*scene, *scene->mRootNode, aiMatrix4x4());
+  collector.addNode(scene, *scene.mRootNode, aiMatrix4x4());
   TriangleMesh mesh = collector.take();
   importer.FreeScene();
   if (mesh.triangles.empty()) throw InputError(name + ": the mesh has no triangles");

@@ -38,7 +38,9 @@ void readChild(Context& context, const Object& object) {
   }
 }
 
-void checkCounts(const Object& scene) {
+void checkScene(const Object& scene) {
+  for (const auto& [name, property] : scene.properties)
+    failAt(property.source, fmt::format("the property '{}' stands outside of any plugin", name));
   const Object* first[2] = {nullptr, nullptr};
   for (const Child& child : scene.children) {
     const int which = child.object->tag == "sensor" ? 0 : child.object->tag == "integrator" ? 1 : -1;
@@ -57,9 +59,8 @@ SceneDescription loadMitsubaScene(const std::filesystem::path& file, const LoadO
   Context context{options, readVersion(xml.root), xml.search, {}, {}, {}, {}};
   const Objects objects = readObjects(xml.root);
   const Object& scene = objects.front();
-  checkCounts(scene);
+  checkScene(scene);
   for (const Child& child : scene.children) readChild(context, *child.object);
-  Reader(context, scene).children("");  // the scene itself has no properties
   context.meshes.load();
   return std::move(context.scene);
 }

@@ -13,7 +13,8 @@ namespace pt::mitsuba {
 namespace {
 
 constexpr int kMaxNesting = 64;
-constexpr int kMaxIncludes = 16;
+constexpr std::size_t kMaxOpenIncludes = 16;
+constexpr int kMaxIncludes = 256;
 
 /// An open file: turns pugixml's offsets into lines.
 class SourceFile {
@@ -128,8 +129,9 @@ class XmlReader {
     search.addFolderInFront(file.folder());
     const auto path = search.find(name);
     if (!path) failAt(element.source, fmt::format("cannot find the included file '{}'", name));
-    if (++m_includes > kMaxIncludes * kMaxIncludes || m_openIncludes.size() >= kMaxIncludes)
-      failAt(element.source, "too many nested includes");
+    if (++m_includes > kMaxIncludes || m_openIncludes.size() >= kMaxOpenIncludes)
+      failAt(element.source,
+             fmt::format("more than {} includes, or {} of them nested", kMaxIncludes, kMaxOpenIncludes));
     if (!m_openIncludes.insert(*path).second) failAt(element.source, fmt::format("'{}' includes itself", name));
     const SourceFile included(*path);
     m_scene.search.addFolder(included.folder());

@@ -219,7 +219,15 @@ TEST_CASE("meshes that cannot be used") {
   CHECK(errorOf("a.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n")
             .find("a.obj: face corner 1 has a NaN or infinite coordinate") == 0);
   CHECK(errorOf("a.obj", "v 0 0 0\nv inf 0 0\nv 0 1 0\nf 1 2 3\n").find("NaN or infinite") != std::string::npos);
-  CHECK(errorOf("a.ply", "not a ply file").starts_with("a.ply: cannot read the mesh: "));
+  CHECK(errorOf("a.ply", "not a ply file") == "a.ply: is no PLY file: its first line is not 'ply'");
+  CHECK(errorOf("a.ply", "ply\nformat ascii 1.0\nelement vertex 4\n") == "a.ply: the PLY header has no 'end_header'");
+  CHECK(errorOf("a.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n") ==
+        "a.ply: the PLY header announces 'element vertex 4000000000' in a file of 58 bytes");
+  const std::string oneFace =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+  CHECK(errorOf("a.ply", oneFace + "3 0 1 7\n") == "a.ply: face 0 refers to vertex 7 of 3");
+  CHECK(errorOf("a.ply", oneFace + "4 0 1 2 -1\n").find("refers to vertex") != std::string::npos);
   CHECK(errorOf("a.glb", "glTF").starts_with("a.glb: cannot read the mesh: "));
   CHECK_FALSE(errorOf("a.obj", "").empty());
   SceneFolder folder;

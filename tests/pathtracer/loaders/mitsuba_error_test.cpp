@@ -83,6 +83,7 @@ TEST_CASE("values out of range") {
 }
 
 TEST_CASE("objects where they do not belong") {
+  CHECK(errorOf(R"(<float name="fov" value="3"/>)") == "a.xml:2: the property 'fov' stands outside of any plugin");
   CHECK(errorOf(R"(<shape type="sphere"><emitter type="area"/><emitter type="area"/></shape>)") ==
         "a.xml:2: shape 'sphere' has more than one emitter");
   CHECK(errorOf(R"(<shape type="sphere"><bsdf type="diffuse"/><bsdf type="diffuse"/></shape>)") ==
