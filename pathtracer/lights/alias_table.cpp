@@ -30,14 +30,4 @@ AliasTable::AliasTable(std::span<const double> weights) : m_bins(weights.size())
   for (std::uint32_t i : small) m_bins[i] = {1, i};  // 1 but for rounding
 }
 
-AliasTable::Pick AliasTable::sample(double u) const noexcept {
-  const double scaled = u * double(m_bins.size());
-  const auto i = std::min(std::uint32_t(scaled), std::uint32_t(m_bins.size() - 1));
-  const double within = scaled - i;
-  const Bin bin = m_bins[i];
-  constexpr double kBelowOne = 0x1.fffffffffffffp-1;
-  if (within < bin.threshold) return {i, std::min(within / bin.threshold, kBelowOne)};
-  return {bin.alias, std::min((within - bin.threshold) / (1 - double(bin.threshold)), kBelowOne)};
-}
-
 }  // namespace pt

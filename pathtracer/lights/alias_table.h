@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,7 +22,16 @@ class AliasTable {
   bool empty() const noexcept { return m_bins.empty(); }
 
   /// u in [0,1), with more bits than a float's 24 where the table is large or its weights differ much.
-  Pick sample(double u) const noexcept;
+  Pick sample(double u) const noexcept {
+    const double scaled = u * double(m_bins.size());
+    const auto i = std::min(std::uint32_t(scaled), std::uint32_t(m_bins.size() - 1));
+    const double within = scaled - i;
+    const Bin bin = m_bins[i];
+    if (bin.threshold >= 1) return {i, within};
+    constexpr double kBelowOne = 0x1.fffffffffffffp-1;
+    if (within < bin.threshold) return {i, std::min(within / bin.threshold, kBelowOne)};
+    return {bin.alias, std::min((within - bin.threshold) / (1 - double(bin.threshold)), kBelowOne)};
+  }
 
  private:
   struct Bin {

@@ -8,20 +8,19 @@ namespace pt {
 /// A point chosen on an emitting surface.
 struct AreaSample {
   Vec3 p;
-  Vec3 ng;                   ///< unit, on either side
-  float extent = 0;          ///< size of the numbers it was computed from: they bound its rounding error
-  bool facesTarget = false;  ///< the emitting side is turned to the point that asks
+  Vec3 normal;       ///< of the surface, of any length, on either side
+  float extent = 0;  ///< size of the numbers that p was computed from: they bound its rounding error
 };
 
-/// Direction, density per solid angle and free distance from `p`, for a point chosen with density `pdfArea`.
-inline LightSample toLightSample(const Vec3& p, const AreaSample& sample, float pdfArea,
+/// Direction, density per solid angle and free distance from `from`, for a point chosen with density `pdfArea`.
+inline LightSample toLightSample(const Vec3& from, const AreaSample& sample, float pdfArea,
                                  const Spectrum& radiance) noexcept {
-  const Vec3 d = sample.p - p;
+  const Vec3 d = sample.p - from;
   const float distance = d.length();
   LightSample result;
-  if (!sample.facesTarget || !(distance > 0)) return result;
+  if (!(distance > 0)) return result;
   result.wi = d / distance;
-  const float cosine = std::abs(sample.ng.dot(result.wi));
+  const float cosine = std::abs(sample.normal.dot(result.wi)) / sample.normal.length();
   const float pdf = pdfArea * distance * distance / cosine;
   if (!(pdf > 0) || !std::isfinite(pdf)) return result;
   // The ray must end short of the light itself: errors of the point, of the direction and of the intersection, seen at

@@ -8,6 +8,7 @@ namespace pt {
 DiskLight::DiskLight(const Disk& disk, const Spectrum& radiance)
     : m_disk(disk),
       m_radiance(radiance),
+      m_invArea(float(1 / disk.area())),
       m_extent(maxAbs(Vec3(disk.center)) + float(disk.axes[0].length() + disk.axes[1].length())) {}
 
 double DiskLight::power() const noexcept {
@@ -15,17 +16,14 @@ double DiskLight::power() const noexcept {
 }
 
 LightSample DiskLight::sampleDirect(const Vec3& p, double, const Vec2& u) const noexcept {
+  if (!(m_disk.normal.dot(Imath::V3d(p) - m_disk.center) > 0)) return {};
   const Vec2 xy = squareToDisk(u);
-  AreaSample sample;
-  sample.p = Vec3(m_disk.center + m_disk.axes[0] * double(xy.x) + m_disk.axes[1] * double(xy.y));
-  sample.ng = Vec3(m_disk.normal);
-  sample.extent = m_extent;
-  sample.facesTarget = m_disk.normal.dot(Imath::V3d(p) - m_disk.center) > 0;
-  return toLightSample(p, sample, float(1 / m_disk.area()), m_radiance);
+  const Imath::V3d point = m_disk.center + m_disk.axes[0] * double(xy.x) + m_disk.axes[1] * double(xy.y);
+  return toLightSample(p, {Vec3(point), Vec3(m_disk.normal), m_extent}, m_invArea, m_radiance);
 }
 
 float DiskLight::pdfDirect(const Vec3& p, const SurfaceInteraction& hit) const noexcept {
-  return areaToSolidAngle(p, hit, float(1 / m_disk.area()));
+  return areaToSolidAngle(p, hit, m_invArea);
 }
 
 Spectrum DiskLight::radiance(const SurfaceInteraction& hit, const Vec3& wo) const noexcept {

@@ -20,7 +20,8 @@ class DiskLight : public Light {
  private:
   const Disk& m_disk;
   Spectrum m_radiance;
-  float m_extent;
+  float m_invArea;
+  float m_extent;  ///< see AreaSample
 };
 
 }  // namespace pt

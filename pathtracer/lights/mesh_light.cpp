@@ -22,22 +22,16 @@ double MeshLight::power() const noexcept {
 }
 
 LightSample MeshLight::sampleDirect(const Vec3& p, double uPart, const Vec2& u) const noexcept {
-  const auto pick = m_triangles.sample(uPart);
-  const auto& [a, b, c] = m_mesh.triangles[pick.index];
+  const auto& [a, b, c] = m_mesh.triangles[m_triangles.sample(uPart).index];
   const Vec2 uv = squareToTriangle(u);
   const Vec3& v0 = m_mesh.position(a);
   const Vec3 e1 = m_mesh.position(b) - v0, e2 = m_mesh.position(c) - v0;
 
-  AreaSample sample;
-  sample.p = v0 + e1 * uv.x + e2 * uv.y;
-  sample.ng = e1.cross(e2).normalized();
-  sample.extent = maxAbs(v0) + m_mesh.maxEdge;
-  if (m_mesh.hasNormals()) {
-    const Vec3 ns = m_mesh.normal(a) * (1 - uv.x - uv.y) + m_mesh.normal(b) * uv.x + m_mesh.normal(c) * uv.y;
-    sample.facesTarget = ns.dot(p - sample.p) > 0;
-  } else {
-    sample.facesTarget = sample.ng.dot(p - sample.p) > 0;
-  }
+  const AreaSample sample{v0 + e1 * uv.x + e2 * uv.y, e1.cross(e2), maxAbs(v0) + m_mesh.maxEdge};
+  Vec3 front = sample.normal;
+  if (m_mesh.hasNormals())
+    front = m_mesh.normal(a) * (1 - uv.x - uv.y) + m_mesh.normal(b) * uv.x + m_mesh.normal(c) * uv.y;
+  if (!(front.dot(p - sample.p) > 0)) return {};
   return toLightSample(p, sample, m_invArea, m_radiance);
 }
 

@@ -20,13 +20,15 @@ Box3 Sphere::bounds() const {
 
 bool Sphere::intersect(const RayD& ray, double tMin, double tMax, double& t) const noexcept {
   const Imath::V3d o = ray.origin - center;
+  const double c = o.dot(o) - radius * radius;
+  // A segment between two inner points does not cross: most rays of a scene inside a sphere end here.
+  if (c < 0 && (o + ray.direction * tMax).length2() < radius * radius) return false;
   const double a = ray.direction.dot(ray.direction);
   const double b = o.dot(ray.direction);
   // Distance of the line from the centre instead of b^2 - a c: no cancellation for far origins [Haines et al. 2019,
   // Sec. 7.2].
   const double discriminant = radius * radius - (o - ray.direction * (b / a)).length2();
   if (!(discriminant >= 0)) return false;
-  const double c = o.dot(o) - radius * radius;
   const double q = -b - std::copysign(std::sqrt(a * discriminant), b);
   if (q == 0) return false;  // starts on the sphere along its tangent
   double near = q / a, far = c / q;

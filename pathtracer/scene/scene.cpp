@@ -54,7 +54,8 @@ bool Scene::occluded(const Ray& ray) const noexcept {
 
 Ray Scene::spawnRay(const SurfaceInteraction& si, const Vec3& direction) const noexcept {
   const float offset = si.ng.dot(direction) < 0 ? -si.offset : si.offset;
-  return {si.p + si.ng * offset, direction};
+  // Not 0: where the offset is 0 the origin lies exactly in the plane, and Embree includes both ends of the ray.
+  return {si.p + si.ng * offset, direction, std::numeric_limits<float>::min()};
 }
 
 bool Scene::visible(const SurfaceInteraction& si, const LightSample& light) const noexcept {

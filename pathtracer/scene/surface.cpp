@@ -17,6 +17,14 @@ bool isUsable(const Vec3& normal) {
   return length2 > 0 && std::isfinite(length2);
 }
 
+/// Of unit length, also where its squares leave the range of floats.
+Vec3 unit(const Imath::V3d& v) {
+  const Vec3 f(v);
+  const float length2 = f.length2();
+  if (length2 > 1e-30f && length2 < 1e30f) return f * (1 / std::sqrt(length2));
+  return Vec3(v * (1 / v.length()));
+}
+
 LocalHit triangleHit(const Mesh& mesh, const AccelHit& hit) {
   const auto& [a, b, c] = mesh.triangles[hit.primitive];
   const Vec3 &v0 = mesh.position(a), &v1 = mesh.position(b), &v2 = mesh.position(c);
@@ -24,7 +32,7 @@ LocalHit triangleHit(const Mesh& mesh, const AccelHit& hit) {
   LocalHit local;
   // In double, so that the point is off the triangle's plane by no more than its own rounding to float.
   local.p = Imath::V3d(v0) + e1 * double(hit.u) + e2 * double(hit.v);
-  local.ng = local.ns = Vec3(e1.cross(e2).normalized());
+  local.ng = local.ns = unit(e1.cross(e2));
   local.uv = {hit.u, hit.v};
   const float w = 1 - hit.u - hit.v;
   if (mesh.hasNormals()) {
@@ -111,10 +119,10 @@ void completeInteraction(const Surface& surface, const Instance* instance, const
   si.primitive = hit.primitive;
   if (instance) {
     local.p = instance->toWorld.point(local.p);
-    local.ng = Vec3(instance->toWorld.normal(Imath::V3d(local.ng)).normalized());
+    local.ng = unit(instance->toWorld.normal(Imath::V3d(local.ng)));
     local.ns = Vec3(instance->toWorld.normal(Imath::V3d(local.ns)));
   }
-  const Vec3 ns = local.ns.normalized();
+  const Vec3 ns = unit(Imath::V3d(local.ns));
   si.p = Vec3(local.p);
   si.ng = local.ng.dot(ns) < 0 ? -local.ng : local.ng;
   si.frame = Frame(ns);
