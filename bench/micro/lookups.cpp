@@ -29,7 +29,7 @@ struct DiffuseBsdf {
 };
 
 struct Query {
-  Imath::V3f position, direction;
+  Imath::V3f position, direction, normal;
   Imath::V2f u;
   float uChoice = 0;
 };
@@ -39,7 +39,8 @@ std::vector<Query> makeQueries(const guiding::Field& field) {
   std::vector<Query> queries(kQueries);
   const Imath::V3f size = field.bounds().size();
   for (Query& q : queries)
-    q = {field.bounds().min + random.next3D() * size, random.nextDirection(), random.next2D(), random.next1D()};
+    q = {field.bounds().min + random.next3D() * size, random.nextDirection(), random.nextDirection(), random.next2D(),
+         random.next1D()};
   return queries;
 }
 
@@ -96,6 +97,21 @@ void vertex(benchmark::State& state, const guiding::Field& field) {
   }
 }
 
+/// The same bound to a diffuse surface, for fields that multiply the product in.
+void boundVertex(benchmark::State& state, const guiding::Field& field) {
+  const auto queries = makeQueries(field);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const Query& q = queries[i++ % kQueries];
+    guiding::LobeSet lobes;
+    lobes.add({guiding::Lobe::Shape::Cosine, q.normal, 0, 0.7f, 1});
+    const guiding::GuidingDistribution guide = field.bind(q.position, lobes);
+    if (!guide) continue;
+    benchmark::DoNotOptimize(guide.sample(q.u));
+    benchmark::DoNotOptimize(guide.pdf(q.direction));
+  }
+}
+
 void mixture(benchmark::State& state, const guiding::Field& field) {
   const auto queries = makeQueries(field);
   std::size_t i = 0;
@@ -118,6 +134,7 @@ void registerLookups(const std::string& fieldName, const guiding::Field& field) 
   add("pdf", pdf);
   add("bind+sample+pdf", vertex);
   add("bind+mixture", mixture);
+  if (field.settings().product) add("bindLobes+sample+pdf", boundVertex);
 }
 
 }  // namespace bench

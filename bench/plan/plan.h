@@ -42,6 +42,9 @@ struct ReferenceEstimator {
   int parts = 8;  ///< at least 4
 };
 
+/// Two estimators, differing in what they are for.
+enum class ReferenceRole { Main, Check };
+
 struct ReferencePlan {
   ReferenceEstimator main;
   std::optional<ReferenceEstimator> check;  ///< a second, independent way that must agree

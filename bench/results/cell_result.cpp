@@ -2,8 +2,6 @@
 
 namespace bench {
 
-namespace {
-
 nlohmann::ordered_json toJson(const CurvePoint& point) {
   nlohmann::ordered_json json{{"seconds", point.seconds}, {"spp", point.spp}};
   for (const Metric& metric : kMetrics) json[metric.key] = point.error.*metric.value;
@@ -17,8 +15,6 @@ CurvePoint pointFromJson(const nlohmann::ordered_json& json) {
   point.error.bias = json.at("bias");
   return point;
 }
-
-}  // namespace
 
 nlohmann::ordered_json toJson(const CellResult& cell) {
   nlohmann::ordered_json json{{"scene", cell.id.scene},

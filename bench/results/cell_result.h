@@ -37,9 +37,11 @@ struct CellResult {
   bool failed() const { return !failure.empty(); }
 };
 
+nlohmann::ordered_json toJson(const CurvePoint& point);
 nlohmann::ordered_json toJson(const CellResult& cell);
 
-/// Throws nlohmann::json::exception if the text is not what toJson() wrote.
+/// Both throw nlohmann::json::exception if it is not what toJson() made.
+CurvePoint pointFromJson(const nlohmann::ordered_json& json);
 CellResult cellFromJson(const nlohmann::ordered_json& json);
 
 }  // namespace bench

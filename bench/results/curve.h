@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "results/picture_error.h"
+#include "results/metric.h"
 
 namespace bench {
 

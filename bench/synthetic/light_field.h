@@ -4,23 +4,36 @@
 
 #include <vector>
 
+#include "synthetic/random.h"
+
 namespace bench {
 
-/// A ball that shines; near ones move across the sphere of directions from place to place (parallax).
-struct SphericalLight {
-  Imath::V3f center;
-  float radius = 0.1f;
-  float radiance = 1;
+/// Something that shines into the unit cube: a part of the sphere of directions, as seen from each place.
+struct Light {
+  enum class Shape {
+    Ball,        ///< hard-edged cap that a ball at `center` covers; near ones move from place to place (parallax)
+    NearLobe,    ///< von Mises-Fisher lobe of `sharpness` towards `center`
+    FarLobe,     ///< the same towards the unit direction `center` from every place
+    Hemisphere,  ///< all directions about the unit direction `center`
+    Background,  ///< all directions
+  };
+  Shape shape = Shape::Background;
+  Imath::V3f center{0, 0, 1};
+  float size = 0;      ///< a ball's radius, a lobe's sharpness
+  float radiance = 1;  ///< at a lobe's peak
 };
 
-/// Incident radiance that is known exactly everywhere: balls in front of a background. The balls do not shadow each
-/// other.
+/// Incident radiance that is known exactly everywhere, and can be sampled exactly. Lights do not shadow each other;
+/// places lie outside the balls.
 struct LightField {
-  std::vector<SphericalLight> lights;
-  float background = 0;
+  std::vector<Light> lights;
 
   /// Radiance that arrives at `position` from the unit direction wi.
-  float radiance(const Imath::V3f& position, const Imath::V3f& wi) const noexcept;
+  double radiance(const Imath::V3f& position, const Imath::V3f& wi) const noexcept;
+  /// Integral of the radiance over the sphere.
+  double fluence(const Imath::V3f& position) const noexcept;
+  /// Draws a direction with density radiance / fluence.
+  Imath::V3f sample(const Imath::V3f& position, Random& random) const noexcept;
 };
 
 /// Four balls of different size and strength around the unit cube, before a dim background.

@@ -18,7 +18,7 @@ guiding::SampleBuffer recordSamples(const LightField& light, const guiding::Fiel
     sample.bsdfPdf = kUniformSpherePdf;
     sample.guidePdf = guide ? guide.pdf(sample.direction) : 0.0f;
     sample.pdf = alpha * sample.bsdfPdf + (1 - alpha) * sample.guidePdf;
-    sample.radiance = light.radiance(sample.position, sample.direction);
+    sample.radiance = float(light.radiance(sample.position, sample.direction));
     sample.product = sample.radiance;
     sample.distance = 1;
     buffer.add(sample);

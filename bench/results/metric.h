@@ -2,19 +2,22 @@
 
 #include <array>
 
+#include "film/film.h"
+
 namespace bench {
 
 /// How far a picture is from the reference; formulas in bench/README.md.
 struct PictureError {
-  double relMse = 0;         ///< mean of d^2 / (r^2 + 0.01)
-  double relMseTrimmed = 0;  ///< the same without the 0.1% worst pixels
-  double mape = 0;           ///< mean of |d| / (r + 0.01)
-  double smape = 0;          ///< mean of 2|d| / (|x| + |r| + 0.01)
-  double mse = 0;            ///< mean of d^2
-  double bias = 0;           ///< mean of d over mean of r: signed, shrinks to 0 for an unbiased estimator
+  double relMse = 0;
+  double relMseTrimmed = 0;  ///< without the worst 0.1%
+  double mape = 0, smape = 0, mse = 0;
+  double bias = 0;  ///< signed relative difference of the means
 };
 
-/// A metric by name, for tables that hold them all. `bias` is not one: it has a sign.
+/// Throws pt::InputError unless both have the same size and can be compared.
+PictureError measure(const pt::Image& image, const pt::Image& reference);
+
+/// An error by name, for tables that hold them all; the bias has a sign and is no error.
 struct Metric {
   const char* key;
   const char* label;

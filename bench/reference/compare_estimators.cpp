@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/types.h"
+#include "reference/reference.h"
+#include "statistics/student_t.h"
+
+namespace bench {
+
+namespace {
+
+constexpr int kTileSide = 16;
+
+struct Tile {
+  int x0, y0, x1, y1;
+};
+
+std::vector<Tile> tilesOf(const pt::Image& image) {
+  std::vector<Tile> tiles;
+  for (int y = 0; y < image.height; y += kTileSide)
+    for (int x = 0; x < image.width; x += kTileSide)
+      tiles.push_back({x, y, std::min(x + kTileSide, image.width), std::min(y + kTileSide, image.height)});
+  return tiles;
+}
+
+double meanLuminance(const pt::Image& image, const Tile& tile) {
+  double sum = 0;
+  for (int y = tile.y0; y < tile.y1; ++y)
+    for (int x = tile.x0; x < tile.x1; ++x) sum += pt::luminance(image.at(x, y));
+  return sum / double((tile.x1 - tile.x0) * (tile.y1 - tile.y0));
+}
+
+struct Moments {
+  double mean = 0, variance = 0;  ///< of the mean
+  double n = 0;
+};
+
+Moments momentsOf(const std::vector<pt::Image>& parts, const Tile& tile) {
+  std::vector<double> values;
+  for (const pt::Image& part : parts) values.push_back(meanLuminance(part, tile));
+  Moments m;
+  m.n = double(values.size());
+  for (const double v : values) m.mean += v / m.n;
+  for (const double v : values) m.variance += (v - m.mean) * (v - m.mean) / (m.n * (m.n - 1));
+  return m;
+}
+
+struct Welch {
+  double t = 0, chance = 1;  ///< chance: two-sided p-value
+};
+
+Welch welchTest(const Moments& a, const Moments& b) {
+  const double variance = a.variance + b.variance;
+  if (!(variance > 0)) return a.mean == b.mean ? Welch{0, 1} : Welch{INFINITY, 0};
+  const double t = (a.mean - b.mean) / std::sqrt(variance);
+  const double freedom =
+      variance * variance / (a.variance * a.variance / (a.n - 1) + b.variance * b.variance / (b.n - 1));
+  return {t, 2 * studentCdf(-std::abs(t), freedom)};
+}
+
+}  // namespace
+
+Agreement compareEstimators(const std::vector<pt::Image>& a, const std::vector<pt::Image>& b) {
+  const Tile whole{0, 0, a.front().width, a.front().height};
+  std::vector<Tile> tiles = tilesOf(a.front());
+  tiles.push_back(whole);
+  Agreement agreement;
+  agreement.tests = int(tiles.size());
+  double least = 1;
+  for (const Tile& tile : tiles) {
+    const Welch test = welchTest(momentsOf(a, tile), momentsOf(b, tile));
+    agreement.worstT = std::max(agreement.worstT, std::abs(test.t));
+    least = std::min(least, test.chance);
+  }
+  agreement.chanceOfWorst = -std::expm1(double(tiles.size()) * std::log1p(-least));
+  const double meanA = momentsOf(a, whole).mean, meanB = momentsOf(b, whole).mean;
+  agreement.meanDifference = meanA != 0 ? (meanB - meanA) / meanA : meanB;
+  return agreement;
+}
+
+}  // namespace bench
