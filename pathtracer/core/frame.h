@@ -22,7 +22,11 @@ struct Frame {
 };
 
 /// Trigonometry of directions in the local frame (z is the normal).
-inline float cosTheta(const Vec3& v) { return v.z; }
-inline float sinTheta2(const Vec3& v) { return std::max(0.0f, 1 - v.z * v.z); }
+inline float cosTheta(const Vec3& v) {
+  return v.z;
+}
+inline float sinTheta2(const Vec3& v) {
+  return std::max(0.0f, 1 - v.z * v.z);
+}
 
 }  // namespace pt
