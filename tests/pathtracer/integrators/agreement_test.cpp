@@ -38,8 +38,11 @@ std::vector<std::pair<const char*, pt::GuidingSettings>> guidedVariants() {
           {"recommended", recommended}};
 }
 
-void checkAgreement(const std::string& name) {
-  pt::SceneDescription description = pt::loadScene(std::string(GUIDING_SOURCE_DIR) + "/scenes/" + name + "/scene.json");
+pt::SceneDescription bundledScene(const std::string& name) {
+  return pt::loadScene(std::string(GUIDING_SOURCE_DIR) + "/scenes/" + name + "/scene.json");
+}
+
+void checkAgreement(const std::string& name, pt::SceneDescription description) {
   description.film.width = kWidth;
   description.film.height = kHeight;
   const pt::Scene scene(description);
@@ -70,11 +73,21 @@ void checkAgreement(const std::string& name) {
 }  // namespace
 
 TEST_CASE("guided, compensated and unguided renders agree in the box lit from its ceiling", "[slow]") {
-  checkAgreement("cornell-lamp");
+  checkAgreement("cornell-lamp", bundledScene("cornell-lamp"));
 }
+
 TEST_CASE("guided, compensated and unguided renders agree on the plates", "[slow]") {
-  checkAgreement("veach-plates");
+  checkAgreement("veach-plates", bundledScene("veach-plates"));
 }
+
 TEST_CASE("guided, compensated and unguided renders agree behind the door", "[slow]") {
-  checkAgreement("door-ajar");
+  // The lamp at twice its width and height: without light sampling, paths that find the small one by chance are so rare
+  // and bright that the mean of some dozen short runs is no normal variable.
+  pt::SceneDescription description = bundledScene("door-ajar");
+  for (pt::ShapeDescription& shape : description.shapes)
+    if (shape.emission) {
+      shape.toWorld = pt::Matrix4().setScale(pt::Vec3(2, 2, 1)) * shape.toWorld;
+      shape.emission->value /= 4;
+    }
+  checkAgreement("door-ajar", description);
 }

@@ -39,7 +39,7 @@ pt::SceneDescription furnace(float albedo, float emission) {
   return scene;
 }
 
-pt::SceneDescription denseShell() {
+pt::SceneDescription denseShell(float roughness) {
   pt::SceneDescription scene = emptyScene(8, 8);
   scene.camera = cameraLookingDown({0.05f, -0.02f, 0.1f}, 90);
   scene.lights.push_back({pt::ConstantEnvironment{pt::Spectrum(1.0f)}, "test"});
@@ -47,6 +47,7 @@ pt::SceneDescription denseShell() {
     pt::DielectricMaterial glass;
     glass.intIor = i == 0 ? 1.0f : 2.0f;
     glass.extIor = i == 0 ? 2.0f : 1.0f;
+    if (roughness > 0) glass.roughness = pt::Roughness{roughness, pt::MicrofacetDistribution::Ggx};
     scene.materials.push_back({"glass", glass, "test"});
     pt::ShapeDescription sphere;
     sphere.kind = pt::SphereShape{{0, 0, 0}, float(i + 1)};

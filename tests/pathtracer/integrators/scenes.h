@@ -15,7 +15,8 @@ pt::SceneDescription furnace(float albedo, float emission);
 
 /// Seen from near the centre of two concentric glass surfaces with a medium of index 2 between them, in an environment
 /// of radiance 1: the radiance is 1 in every direction.
-pt::SceneDescription denseShell();
+/// With a roughness, both surfaces are rough (and the radiance a little less).
+pt::SceneDescription denseShell(float roughness = 0);
 
 /// A diffuse floor (albedo 0.5, the plane z = 0 as far as 10) seen from straight above, without lights.
 pt::SceneDescription floor();

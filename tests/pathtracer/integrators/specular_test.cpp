@@ -44,3 +44,24 @@ TEST_CASE("refraction does not make roulette end paths early", "[integrators]") 
   const pt::RenderResult result = render(scene, settings);
   CHECK(double(result.counters.rays) / double(result.counters.paths) > 2.8);
 }
+
+TEST_CASE("refraction that the guide chose counts like the BSDF's own in roulette", "[integrators]") {
+  const pt::SceneDescription description = denseShell(0.3f);
+  const pt::Scene scene(description);
+  pt::RenderSettings settings = settingsFor(description, 255);
+  settings.path.rrDepth = 1;
+  settings.nee = false;
+  const auto raysPerPath = [](const pt::RenderResult& result) {
+    return double(result.counters.rays) / double(result.counters.paths);
+  };
+  const pt::RenderResult unguided = render(scene, settings);
+  settings.guiding = eagerGuiding(CompensationForm::None);
+  settings.guiding->field.bsdfSamplingFraction = 0.1f;
+  const pt::RenderResult guided = render(scene, settings);
+  REQUIRE(guided.counters.guidedScatterings > guided.counters.scatterings / 2);
+  // The guide leads out of the shell sooner than the BSDF, which also reflects. If its refractions into the shell did
+  // not count with eta^2 = 4, they would survive a quarter as often, and 2.2 rays a path would be left.
+  CHECK(raysPerPath(guided) > 2.5);
+  CHECK(raysPerPath(guided) < raysPerPath(unguided));
+  CHECK(meanLuminance(guided.image) == Approx(meanLuminance(unguided.image)).epsilon(0.05));
+}
