@@ -15,7 +15,7 @@ struct BakedShape {
   Box3 bounds;
 };
 
-/// Throws InputError that names the shape.
-BakedShape bakeShape(const ShapeDescription& shape, bool keepUvs);
+/// In the space whose origin lies at `origin` of the shape's own. Throws InputError that names the shape.
+BakedShape bakeShape(const ShapeDescription& shape, bool keepUvs, const Imath::V3d& origin);
 
 }  // namespace pt

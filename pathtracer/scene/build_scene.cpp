@@ -11,6 +11,7 @@
 #include "lights/sphere_light.h"
 #include "scene/bake_shape.h"
 #include "scene/scene_data.h"
+#include "scene/scene_origin.h"
 #include "scene/texture_use.h"
 
 namespace pt {
@@ -47,6 +48,7 @@ class SceneBuilder {
     for (const auto& shape : m_description.shapes) validateShape(m_description, shape, false);
     for (const auto& group : m_description.groups)
       for (const auto& shape : group.shapes) validateShape(m_description, shape, true);
+    m_data.origin = chooseOrigin(m_description);
     m_data.materials = createMaterials(m_description);
     addShapes();
     addInstances();
@@ -91,7 +93,9 @@ class SceneBuilder {
     std::vector<std::exception_ptr> faults(shapes.size());
     tbb::parallel_for(std::size_t(0), shapes.size(), [&](std::size_t i) {
       try {
-        baked[i] = bakeShape(*shapes[i], needsUvs(m_description, *shapes[i]));
+        const bool inWorld = i < m_description.shapes.size();  // groups have a space of their own
+        baked[i] =
+            bakeShape(*shapes[i], needsUvs(m_description, *shapes[i]), inWorld ? m_data.origin : Imath::V3d(0, 0, 0));
       } catch (...) {
         faults[i] = std::current_exception();
       }
@@ -139,7 +143,7 @@ class SceneBuilder {
       const auto* instance = std::get_if<InstanceShape>(&shape.kind);
       if (!instance) continue;
       const std::size_t group = m_groupNumber[std::size_t(instance->group)];
-      m_data.instances.emplace_back(shape.toWorld, group, placeOf(shape));
+      m_data.instances.emplace_back(Transform(shape.toWorld, placeOf(shape)).movedBy(-m_data.origin), group);
       const Box3& box = m_groupBounds[group];
       if (box.isEmpty()) continue;
       for (int corner = 0; corner < 8; ++corner) {
@@ -183,7 +187,8 @@ class SceneBuilder {
     if (isBlack(light.intensity))
       ++m_data.blackEmitters;
     else
-      m_data.lights.push_back(std::make_unique<PointEmitter>(light.position, light.intensity));
+      m_data.lights.push_back(
+          std::make_unique<PointEmitter>(Vec3(Imath::V3d(light.position) - m_data.origin), light.intensity));
   }
 
   void addLight(const ConstantEnvironment& light, const SourceLocation& source) {

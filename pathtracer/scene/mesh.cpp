@@ -4,7 +4,6 @@
 
 #include "core/error.h"
 #include "core/ray_offset.h"
-#include "scene/transform.h"
 
 namespace pt {
 namespace {
@@ -79,13 +78,12 @@ std::size_t Mesh::memoryBytes() const noexcept {
   return vertices.capacity() * sizeof(float) + triangles.capacity() * sizeof(Triangle) + uvs.capacity() * sizeof(Vec2);
 }
 
-Mesh bakeMesh(const TriangleMesh& source, const Matrix4& toWorld, const BakeOptions& options, const std::string& where,
-              std::size_t& degenerate) {
+Mesh bakeMesh(const TriangleMesh& source, const Transform& toWorld, const BakeOptions& options,
+              const std::string& where, std::size_t& degenerate) {
   validate(source, where);
-  const Transform transform(toWorld, where, !options.planar);
   Mesh mesh;
-  bakeVertices(source, transform, options, where, mesh);
-  const bool mirrored = options.windingFollowsMirror && transform.mirrors();
+  bakeVertices(source, toWorld, options, where, mesh);
+  const bool mirrored = options.windingFollowsMirror && toWorld.mirrors();
   bakeTriangles(source, !mesh.hasNormals() && options.flipNormals != mirrored, where, mesh);
   if (mesh.triangles.empty()) throw InputError(where + ": no triangle of the mesh has any area");
   if (options.keepUvs) mesh.uvs = source.uvs;

@@ -7,6 +7,7 @@
 
 #include "core/types.h"
 #include "scene/scene_description.h"
+#include "scene/transform.h"
 
 namespace pt {
 
@@ -37,14 +38,12 @@ struct BakeOptions {
   bool flipNormals = false;
   /// The front of flat triangles follows a mirroring transform (Mitsuba's rectangle and cube), instead of the winding.
   bool windingFollowsMirror = false;
-  /// Lies in the plane z = 0, whose normal does not need the transform to keep.
-  bool planar = false;
 };
 
 /// Applies the transform, checks, and leaves out triangles without area, whose number is added to `degenerate`. Throws
 /// InputError whose message starts with `where`.
-Mesh bakeMesh(const TriangleMesh& source, const Matrix4& toWorld, const BakeOptions& options, const std::string& where,
-              std::size_t& degenerate);
+Mesh bakeMesh(const TriangleMesh& source, const Transform& toWorld, const BakeOptions& options,
+              const std::string& where, std::size_t& degenerate);
 
 /// [-1,1]^2 of the xy plane, and [-1,1]^3.
 TriangleMesh makeRectangle();

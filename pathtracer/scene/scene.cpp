@@ -11,12 +11,22 @@
 namespace pt {
 namespace {
 
-std::unique_ptr<Camera> makeCamera(const SceneDescription& description) {
+void requireCamera(const SceneDescription& description) {
   if (!description.camera) {
     const std::string file = description.file.empty() ? std::string("scene") : description.file.string();
     throw InputError(file + ": the scene has no camera; add one");
   }
-  return std::make_unique<Perspective>(*description.camera, description.film);
+}
+
+std::unique_ptr<Camera> makeCamera(const SceneDescription& description, const Imath::V3d& origin) {
+  PerspectiveCamera camera = *description.camera;
+  for (int k = 0; k < 3; ++k) camera.toWorld[3][k] = float(camera.toWorld[3][k] - origin[k]);
+  return std::make_unique<Perspective>(camera, description.film);
+}
+
+SceneData build(const SceneDescription& description) {
+  requireCamera(description);
+  return buildSceneData(description);
 }
 
 /// u with 24 more bits below a float's: choices of probability far below 2^-24 keep it.
@@ -29,8 +39,8 @@ double refine(float u, const Vec2& independent) noexcept {
 }  // namespace
 
 Scene::Scene(const SceneDescription& description)
-    : m_camera(makeCamera(description)),
-      m_data(std::make_unique<SceneData>(buildSceneData(description))),
+    : m_data(std::make_unique<SceneData>(build(description))),
+      m_camera(makeCamera(description, m_data->origin)),
       m_features(listFeatures(*m_data)),
       m_counts(countScene(*m_data)) {}
 
@@ -82,6 +92,10 @@ float Scene::pdfEnvironment(const Vec3& wi) const noexcept {
 
 const EnvironmentLight* Scene::environment() const noexcept {
   return m_data->environment;
+}
+
+const Imath::V3d& Scene::origin() const noexcept {
+  return m_data->origin;
 }
 
 const Box3& Scene::bounds() const noexcept {

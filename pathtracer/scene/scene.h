@@ -37,7 +37,8 @@ struct DirectSample : LightSample {
 
 struct SceneData;
 
-/// Built, immutable and thread-safe.
+/// Built, immutable and thread-safe. A scene that lies far from its origin is moved there, so that floats keep their
+/// digits: all points that go in and out are in the moved space.
 class Scene {
  public:
   /// Throws InputError for a description that cannot be built (no camera, non-finite vertex, empty mesh, light of no
@@ -67,14 +68,17 @@ class Scene {
   /// Null without an environment.
   const EnvironmentLight* environment() const noexcept;
   const Camera& camera() const noexcept { return *m_camera; }
+  /// Where the origin of all points that go in and out lies in the description's space: (0, 0, 0) unless the scene was
+  /// moved.
+  const Imath::V3d& origin() const noexcept;
   /// Of all shapes; never empty.
   const Box3& bounds() const noexcept;
   const SceneFeatures& features() const noexcept { return m_features; }
   const SceneCounts& counts() const noexcept { return m_counts; }
 
  private:
-  std::unique_ptr<Camera> m_camera;
   std::unique_ptr<const SceneData> m_data;
+  std::unique_ptr<Camera> m_camera;
   SceneFeatures m_features;
   SceneCounts m_counts;
 };

@@ -13,6 +13,8 @@ namespace pt {
 
 /// What a Scene consists of. Addresses of meshes, quadrics, materials and lights are held by others and stay.
 struct SceneData {
+  Imath::V3d origin{0, 0, 0};  ///< of the space of all below, in the space of the description
+
   std::vector<std::unique_ptr<Material>> materials;
   std::deque<Mesh> meshes;
   std::deque<Sphere> spheres;

@@ -100,8 +100,7 @@ Geometry Surface::geometry() const {
   return disk;
 }
 
-Instance::Instance(const Matrix4& matrix, std::size_t groupIndex, const std::string& where)
-    : toWorld(matrix, where), group(groupIndex) {
+Instance::Instance(const Transform& transform, std::size_t groupIndex) : toWorld(transform), group(groupIndex) {
   const Imath::V3d linear[3] = {toWorld.axis(0), toWorld.axis(1), toWorld.axis(2)};
   const Imath::V3d inverse[3] = {toWorld.inverseVector({1, 0, 0}), toWorld.inverseVector({0, 1, 0}),
                                  toWorld.inverseVector({0, 0, 1})};

@@ -26,7 +26,7 @@ struct Instance {
   std::size_t group = 0;
   float error = 0;  ///< world units per unit of size of the coordinates
 
-  Instance(const Matrix4& matrix, std::size_t groupIndex, const std::string& where);
+  Instance(const Transform& transform, std::size_t groupIndex);
 };
 
 /// Fills everything of `si` but the light's and material's pointers from a hit. `instance` null for shapes of the

@@ -17,6 +17,13 @@ class Transform {
   /// `invertible`, not singular.
   Transform(const Matrix4& matrix, const std::string& where, bool invertible = true);
 
+  /// Followed by a translation.
+  Transform movedBy(const Imath::V3d& translation) const noexcept {
+    Transform result = *this;
+    result.m_translation += translation;
+    return result;
+  }
+
   Imath::V3d point(const Imath::V3d& p) const noexcept { return linear(p) + m_translation; }
   Imath::V3d vector(const Imath::V3d& v) const noexcept { return linear(v); }
   /// Inverse transposed, not of unit length.

@@ -55,10 +55,16 @@ Counts probe(const SceneDescription& description, const Vec3& center, float radi
   return counts;
 }
 
+/// The description with a speck at its origin, which keeps the scene from being moved to it.
+SceneDescription anchored(SceneDescription description) {
+  description.shapes.push_back(test::makeShape(CubeShape{}, test::scaling(Vec3(1e-20f))));
+  return description;
+}
+
 /// A point that is known to one part in 2^24 of its coordinates may lie beyond the edge of its face: rays that enter
 /// there may leak, as rarely as the error is small beside the shape.
 void checkWatertight(const SceneDescription& description, const Vec3& center, float radius) {
-  const Counts counts = probe(description, center, radius, 20'000);
+  const Counts counts = probe(center.length() > radius ? anchored(description) : description, center, radius, 20'000);
   CHECK(counts.hits > 10'000);
   CHECK(counts.selfHits == 0);
   CHECK(counts.leaks <= int(1e-7f * center.length() / radius * float(counts.hits)));
@@ -89,6 +95,44 @@ TEST_CASE("A shape of 100 units stays closed a million units away") {
   const Matrix4 toWorld = test::scaling(Vec3(100)) * test::translation(center);
   checkWatertight(test::sceneOf(SphereShape{}, toWorld), center, 100);
   checkWatertight(test::sceneOf(CubeShape{}, toWorld), center, 100);
+}
+
+TEST_CASE("A scene of one unit a million units away loses nothing") {
+  const Vec3 center(1e6f, -1e6f, 1e6f);
+  const Matrix4 toWorld = test::translation(center);
+  for (const auto& description : {test::sceneOf(SphereShape{}, toWorld), test::sceneOf(CubeShape{}, toWorld),
+                                  test::sceneOf(makeBall(12, 16), toWorld)}) {
+    const Scene scene(description);
+    CHECK(scene.origin() == Imath::V3d(center));
+    CHECK((scene.bounds().size() - Vec3(2, 2, 2)).length() < 1e-5f);
+    checkWatertight(description, Vec3(0, 0, 0), 1);
+  }
+}
+
+TEST_CASE("Camera, lights and instances move with a far scene") {
+  const Matrix4 away = test::translation({4e6f, 2e6f, -8e6f});
+  const auto describe = [](const Matrix4& toWorld) {
+    SceneDescription description = test::emptyScene();
+    description.camera->toWorld = test::translation({0, 0, -5}) * toWorld;
+    description.groups.push_back({"ball", {test::makeShape(SphereShape{})}});
+    description.shapes.push_back(test::makeShape(InstanceShape{0}, test::scaling(Vec3(0.5f)) * toWorld));
+    description.shapes.push_back(test::makeShape(RectangleShape{}, test::translation({0, 0, 1}) * toWorld));
+    description.lights.push_back({PointLight{Vec3(1, 2, -3) + toWorld.translation(), Spectrum(1)}, "test"});
+    return description;
+  };
+  const Scene near(describe(Matrix4())), far(describe(away));
+  CHECK(near.origin() == Imath::V3d(0, 0, 0));
+  CHECK(far.origin().length() > 1e6);
+  const Vec3 moved(Imath::V3d(away.translation()) - far.origin());
+  for (const Vec2& film : {Vec2(32, 24), Vec2(29, 22), Vec2(36, 30)}) {
+    SurfaceInteraction a, b;
+    REQUIRE(near.intersect(near.camera().generateRay(film, {}), a));
+    REQUIRE(far.intersect(far.camera().generateRay(film, {}), b));
+    CHECK((a.p + moved - b.p).length() < 1e-5f);
+    const auto lightA = near.sampleDirect(a.p, 0, {}), lightB = far.sampleDirect(b.p, 0, {});
+    CHECK((lightA.wi - lightB.wi).length() < 1e-5f);
+    CHECK(near.visible(a, lightA) == far.visible(b, lightB));
+  }
 }
 
 TEST_CASE("Instances stay closed under scale, shear of the view and translation") {
