@@ -105,3 +105,22 @@ TEST_CASE("a constant environment over a floor", "[integrators]") {
     if (mean.varianceOfMean() > 1e-12) CHECK(zTest(mean, 1.0, 0.001));
   }
 }
+
+TEST_CASE("strict normals keep light from leaking through a surface", "[integrators]") {
+  // Vertex normals lean far over to the side of a light that is below the floor.
+  pt::SceneDescription description = floor();
+  auto mesh = std::make_shared<pt::TriangleMesh>();
+  mesh->positions = {{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}};
+  mesh->normals.assign(3, pt::Vec3(std::sin(1.4f), 0, std::cos(1.4f)));
+  mesh->triangles = {{0, 1, 2}};
+  description.shapes[0].kind = pt::MeshShape{mesh};
+  description.shapes[0].toWorld.makeIdentity();
+  description.camera->fovDegrees = 0.05f;
+  description.lights.push_back({pt::PointLight{{5, 0, -0.3f}, pt::Spectrum(8.0f)}, "test"});
+  const pt::Scene scene(description);
+  pt::RenderSettings settings = settingsFor(description, 1);
+  settings.path.strictNormals = false;
+  CHECK(meanLuminance(render(scene, settings).image) > 0.01);
+  settings.path.strictNormals = true;
+  CHECK(meanLuminance(render(scene, settings).image) == 0);
+}
