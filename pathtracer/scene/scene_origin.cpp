@@ -5,7 +5,7 @@ namespace {
 
 using BoxD = Imath::Box3d;
 
-/// Distance of the middle from the origin, in diagonals of the scene, beyond which the scene is moved.
+/// Distance of the middle from the origin, in diagonals of the scene and its camera, beyond which the scene is moved.
 constexpr double kFar = 16;
 
 bool isFinite(const BoxD& box) {
@@ -55,6 +55,7 @@ Imath::V3d chooseOrigin(const SceneDescription& description) {
   BoxD bounds;
   for (const auto& shape : description.shapes)
     bounds.extendBy(transformed(std::visit(ObjectBounds{description}, shape.kind), shape.toWorld));
+  if (description.camera) bounds.extendBy(transformed(BoxD(Imath::V3d(0, 0, 0)), description.camera->toWorld));
   if (bounds.isEmpty()) return {0, 0, 0};
   const Imath::V3d center = bounds.center();
   return center.length() > kFar * bounds.size().length() ? center : Imath::V3d(0, 0, 0);

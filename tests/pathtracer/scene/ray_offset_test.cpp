@@ -55,16 +55,10 @@ Counts probe(const SceneDescription& description, const Vec3& center, float radi
   return counts;
 }
 
-/// The description with a speck at its origin, which keeps the scene from being moved to it.
-SceneDescription anchored(SceneDescription description) {
-  description.shapes.push_back(test::makeShape(CubeShape{}, test::scaling(Vec3(1e-20f))));
-  return description;
-}
-
 /// A point that is known to one part in 2^24 of its coordinates may lie beyond the edge of its face: rays that enter
 /// there may leak, as rarely as the error is small beside the shape.
 void checkWatertight(const SceneDescription& description, const Vec3& center, float radius) {
-  const Counts counts = probe(center.length() > radius ? anchored(description) : description, center, radius, 20'000);
+  const Counts counts = probe(description, center, radius, 20'000);
   CHECK(counts.hits > 10'000);
   CHECK(counts.selfHits == 0);
   CHECK(counts.leaks <= int(1e-7f * center.length() / radius * float(counts.hits)));
@@ -100,8 +94,9 @@ TEST_CASE("A shape of 100 units stays closed a million units away") {
 TEST_CASE("A scene of one unit a million units away loses nothing") {
   const Vec3 center(1e6f, -1e6f, 1e6f);
   const Matrix4 toWorld = test::translation(center);
-  for (const auto& description : {test::sceneOf(SphereShape{}, toWorld), test::sceneOf(CubeShape{}, toWorld),
-                                  test::sceneOf(makeBall(12, 16), toWorld)}) {
+  for (auto description : {test::sceneOf(SphereShape{}, toWorld), test::sceneOf(CubeShape{}, toWorld),
+                           test::sceneOf(makeBall(12, 16), toWorld)}) {
+    description.camera->toWorld = toWorld;  // one at the described origin would keep the scene there
     const Scene scene(description);
     CHECK(scene.origin() == Imath::V3d(center));
     CHECK((scene.bounds().size() - Vec3(2, 2, 2)).length() < 1e-5f);
