@@ -49,9 +49,14 @@ guiding::Field train(const LightField& light, const guiding::FieldSettings& sett
   return field;
 }
 
-void add(MixtureQuality& sum, const MixtureQuality& q, double share) {
-  sum.variance += q.variance * share;
-  sum.optimum += q.optimum * share;
+void add(MixtureMoments& sum, const MixtureMoments& m) {
+  sum.mixture += m.mixture;
+  sum.optimum += m.optimum;
+  sum.reflectedSquared += m.reflectedSquared;
+}
+
+MixtureQuality qualityOf(const MixtureMoments& sum) {
+  return {sum.mixture / sum.reflectedSquared - 1, sum.optimum / sum.reflectedSquared - 1};
 }
 
 }  // namespace
@@ -62,18 +67,20 @@ FitQuality fit(const LightField& light, const guiding::FieldSettings& settings, 
   FitQuality quality;
   quality.leaves = field.stats().spatialLeaves;
   quality.bytes = field.stats().memoryBytes;
-  const double share = 1.0 / plan.places;
+  MixtureMoments diffuseSum, glossySum;
   for (int i = 0; i < plan.places; ++i) {
     const Imath::V3f p = random.next3D();
     const GuideQuality guide = measureGuide(light, p, field.bind(p), plan.samplesPerPlace, random);
-    quality.divergence += guide.divergence * share;
-    quality.guideVariance += guide.variance * share;
-    const Surface diffuse = Surface::diffuse(random), glossy = Surface::glossy(random);
-    add(quality.diffuse,
-        measureMixture(light, p, diffuse, field.bind(p, diffuse.lobes()), plan.samplesPerPlace, random), share);
-    add(quality.glossy, measureMixture(light, p, glossy, field.bind(p, glossy.lobes()), plan.samplesPerPlace, random),
-        share);
+    quality.divergence += guide.divergence / plan.places;
+    quality.guideVariance += guide.variance / plan.places;
+    const auto mixtureOf = [&](const Surface& surface) {
+      return measureMixture(light, p, surface, field.bind(p, surface.lobes()), plan.samplesPerPlace, random);
+    };
+    add(diffuseSum, mixtureOf(Surface::diffuse(random)));
+    add(glossySum, mixtureOf(Surface::glossy(random)));
   }
+  quality.diffuse = qualityOf(diffuseSum);
+  quality.glossy = qualityOf(glossySum);
   return quality;
 }
 

@@ -15,13 +15,16 @@ struct Node {
   double mixture = 0;
 };
 
-/// V* of p = max(alpha b, f/lambda): lambda from the condition that p integrates to 1, by bisection [theory of MIS
-/// compensation, Karlik et al. 2019; exact form by the KKT conditions].
+/// Least second moment of any density p that leaves the BSDF its share: p = max(alpha b, f/lambda) by the KKT
+/// conditions, with lambda such that p integrates to 1, by bisection.
 double optimalMoment(const std::vector<Node>& nodes, double alpha) {
   const auto mass = [&](double lambda) {
     double aboveF = 0, aboveB = 0;
     for (const Node& n : nodes)
-      if (n.f > lambda * alpha * n.b) aboveF += n.weight * n.f, aboveB += n.weight * n.b;
+      if (n.f > lambda * alpha * n.b) {
+        aboveF += n.weight * n.f;
+        aboveB += n.weight * n.b;
+      }
     return aboveF / lambda + alpha * (1 - aboveB);
   };
   double low = 1e-30, high = 1e30;
@@ -30,7 +33,8 @@ double optimalMoment(const std::vector<Node>& nodes, double alpha) {
     (mass(middle) > 1 ? low : high) = middle;
   }
   double moment = 0;
-  for (const Node& n : nodes) moment += n.weight * (n.f > low * alpha * n.b ? low * n.f : n.f * n.f / (alpha * n.b));
+  for (const Node& n : nodes)
+    if (n.f > 0) moment += n.weight * (n.f > low * alpha * n.b ? low * n.f : n.f * n.f / (alpha * n.b));
   return moment;
 }
 
@@ -50,7 +54,7 @@ GuideQuality measureGuide(const LightField& light, const Imath::V3f& position,
   return quality;
 }
 
-MixtureQuality measureMixture(const LightField& light, const Imath::V3f& position, const Surface& surface,
+MixtureMoments measureMixture(const LightField& light, const Imath::V3f& position, const Surface& surface,
                               const guiding::GuidingDistribution& guide, int samples, Random& random) {
   const double fluence = light.fluence(position), alpha = guide.bsdfSamplingFraction();
   std::vector<Node> nodes(samples);
@@ -65,9 +69,8 @@ MixtureQuality measureMixture(const LightField& light, const Imath::V3f& positio
     reflected += node.weight * node.f;
     if (node.f > 0) moment += node.weight * node.f * node.f / node.mixture;
   }
-  if (!(reflected > 0)) return {};
   const double optimum = guide ? optimalMoment(nodes, alpha) : moment;
-  return {moment / (reflected * reflected) - 1, optimum / (reflected * reflected) - 1};
+  return {moment, optimum, reflected * reflected};
 }
 
 }  // namespace bench

@@ -14,8 +14,12 @@ struct GuideQuality {
 GuideQuality measureGuide(const LightField& light, const Imath::V3f& position,
                           const guiding::GuidingDistribution& guide, int samples, Random& random);
 
-/// The mixture at a shading point; with BSDF share 1 where there is no guide.
-MixtureQuality measureMixture(const LightField& light, const Imath::V3f& position, const Surface& surface,
+/// Second moments of the one-sample estimate at a shading point: with the mixture (the BSDF alone where there is no
+/// guide), with the best density for the same fraction, and the square of what is estimated.
+struct MixtureMoments {
+  double mixture = 0, optimum = 0, reflectedSquared = 0;
+};
+MixtureMoments measureMixture(const LightField& light, const Imath::V3f& position, const Surface& surface,
                               const guiding::GuidingDistribution& guide, int samples, Random& random);
 
 }  // namespace bench

@@ -113,6 +113,28 @@ TEST_CASE("a run yields tables, curves and a page, and resumes to the same table
   CHECK(workshop.log().find("lamp.path.0") == std::string::npos);
 }
 
+TEST_CASE("the page draws itself in a browser without a network") {
+  if (std::system("command -v chromium >/dev/null 2>&1") != 0) {
+    WARN("skipped: chromium is not installed");
+    return;
+  }
+  Workshop workshop;
+  REQUIRE(workshop.run() == 0);
+  const fs::path dom = workshop.out() / "dom.html";
+  const std::string line =
+      "chromium --headless --no-sandbox --disable-gpu --disable-background-networking "
+      "--host-resolver-rules='MAP * ~NOTFOUND' --virtual-time-budget=10000 --dump-dom file://" +
+      (workshop.out() / "report.html").string() + " >" + dom.string() + " 2>/dev/null </dev/null";
+  REQUIRE(std::system(line.c_str()) == 0);
+  const std::string page = read(dom);
+  CHECK(page.find("data-ready=\"true\"") !=
+        std::string::npos);  // set by the script's last line: nothing before it failed
+  CHECK(page.find("<section id=\"summary\">") != std::string::npos);
+  CHECK(page.find("<section id=\"scene-lamp\">") != std::string::npos);
+  CHECK(page.find("At equal samples: 64 per pixel") != std::string::npos);
+  CHECK(page.find("<td class=\"number warning\">") == std::string::npos);
+}
+
 TEST_CASE("changed settings are rendered again, others kept") {
   Workshop workshop;
   REQUIRE(workshop.run() == 0);
