@@ -1,7 +1,6 @@
 #include "guiding_density.h"
 
 #include <bit>
-#include <cmath>
 
 namespace guiding {
 
@@ -13,17 +12,11 @@ float belowOne(float x) noexcept {
   return x < kOneMinusEpsilon ? x : kOneMinusEpsilon;
 }
 
-/// upper ? b : a without a branch: which half a sample falls into cannot be predicted.
-float select(bool upper, float a, float b) noexcept {
-  const std::uint32_t mask = 0u - std::uint32_t(upper);
-  return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & ~mask) | (std::bit_cast<std::uint32_t>(b) & mask));
-}
-
 /// Chooses the upper half with probability 1 - p, with x in [0,1), and rescales x for reuse. p = 0 and p = 1 never
 /// choose the empty half.
 int chooseHalf(float p, float& x) noexcept {
   const bool upper = x >= p;
-  x = belowOne((x - select(upper, 0.0f, p)) / select(upper, p, 1 - p));
+  x = belowOne((x - select(upper, p, 0.0f)) / select(upper, 1 - p, p));
   return upper;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "branchless.h"
 #include "directional_quadtree.h"
 #include "grid_geometry.h"
 #include "guiding/detail/grid.h"
@@ -28,9 +29,8 @@ class GuidingDensity {
     QuadtreeLinks links;  ///< within the tree's nodes
 
     float share(int cell) const noexcept {
-      const int column = cell & 1;
-      const float x = column ? 1 - column0 : column0;
-      return x * (cell >> 1 ? 1 - row0[column] : row0[column]);
+      const int column = cell & 1, row = cell >> 1;
+      return mirroredIf(column, 1, column0) * mirroredIf(row, 1, row0[column]);
     }
   };
 

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
-// Angles of the first quadrant in quarter turns, to about 1e-7: the hot path of the sphere maps spends its time here.
+#include "branchless.h"
+
+// Angles in quarter turns, to about 1e-7: the hot path of the sphere maps spends its time here.
 // Coefficients: Chebyshev interpolation of atan(x)/x, sin(pi/4 x)/x and cos(pi/4 x) in x^2 over [0, 1].
 namespace guiding {
 
@@ -21,22 +24,28 @@ inline float quarterAngle(float y, float x) noexcept {
   p = p * z + 1.272761034e-01f;
   p = p * z - 2.122048939e-01f;
   p = p * z + 6.366197623e-01f;
-  const float angle = p * r;
-  return y > x ? 1 - angle : angle;
+  return mirroredIf(y > x, 1, p * r);
 }
 
 struct SinCos {
   float sin, cos;
 };
 
-/// sin and cos of pi/2 * t for t in [0, 1].
+/// sin and cos of pi/2 * t for t in [-1/2, 1/2].
+inline SinCos eighthSinCos(float t) noexcept {
+  const float g = 2 * t, z = g * g;
+  return {g * (7.853981610e-01f + z * (-8.074543477e-02f + z * (2.490006964e-03f + z * -3.595439923e-05f))),
+          1.0f + z * (-3.084251352e-01f + z * (1.585432524e-02f + z * (-3.259386003e-04f + z * 3.529804349e-06f)))};
+}
+
+/// sin and cos of pi/2 * t for t in [0, 4].
 inline SinCos quarterSinCos(float t) noexcept {
-  const bool upper = t > 0.5f;
-  const float g = upper ? 2 - 2 * t : 2 * t, z = g * g;
-  const float s = g * (7.853981610e-01f + z * (-8.074543477e-02f + z * (2.490006964e-03f + z * -3.595439923e-05f)));
-  const float c =
-      1.0f + z * (-3.084251352e-01f + z * (1.585432524e-02f + z * (-3.259386003e-04f + z * 3.529804349e-06f)));
-  return upper ? SinCos{c, s} : SinCos{s, c};
+  const std::uint32_t turns = std::uint32_t(t + 0.5f);
+  const SinCos a = eighthSinCos(t - float(turns));
+  // Each quarter turn takes (cos, sin) to (-sin, cos).
+  const bool odd = turns & 1u;
+  return {flippedBy((turns & 2u) << 30, select(odd, a.cos, a.sin)),
+          flippedBy(((turns + 1) & 2u) << 30, select(odd, a.sin, a.cos))};
 }
 
 }  // namespace guiding

@@ -39,19 +39,13 @@ inline Imath::V3f cylinderToSphere(const Imath::V2f& uv) noexcept {
   // 2 sqrt(u (1 - u)) avoids the cancellation of 1 - cos^2.
   const float cosTheta = 2 * uv.x - 1;
   const float sinTheta = 2 * std::sqrt(std::max(0.0f, uv.x * (1 - uv.x)));
-  const float turn = 4 * uv.y;
-  const int quadrant = int(turn);
-  const SinCos a = quarterSinCos(turn - float(quadrant));
-  // Each quarter turn takes (cos, sin) to (-sin, cos).
-  const bool odd = quadrant & 1;
-  const float c = odd ? a.sin : a.cos, s = odd ? a.cos : a.sin;
-  return {sinTheta * (quadrant == 1 || quadrant == 2 ? -c : c), sinTheta * (quadrant >= 2 ? -s : s), cosTheta};
+  const SinCos azimuth = quarterSinCos(4 * uv.y);
+  return {sinTheta * azimuth.cos, sinTheta * azimuth.sin, cosTheta};
 }
 
 inline Imath::V2f sphereToCylinder(const Imath::V3f& w) noexcept {
-  const float angle = quarterAngle(std::abs(w.y), std::abs(w.x));
-  const float half = w.x < 0 ? 2 - angle : angle;
-  return {(w.z + 1) * 0.5f, (w.y < 0 ? 4 - half : half) * 0.25f};
+  const float half = mirroredIf(w.x < 0, 2, quarterAngle(std::abs(w.y), std::abs(w.x)));
+  return {(w.z + 1) * 0.5f, mirroredIf(w.y < 0, 4, half) * 0.25f};
 }
 
 // Equal-area octahedron [Clarberg 2008, Sec. 3].
@@ -72,7 +66,8 @@ inline Imath::V2f sphereToOctahedron(const Imath::V3f& w) noexcept {
   const float r = std::sqrt((ax * ax + ay * ay) / (1 + std::abs(w.z)));
   const float y = quarterAngle(ay, ax) * r, x = r - y;
   const bool below = w.z < 0;
-  return {(std::copysign(below ? 1 - y : x, w.x) + 1) * 0.5f, (std::copysign(below ? 1 - x : y, w.y) + 1) * 0.5f};
+  return {(std::copysign(select(below, 1 - y, x), w.x) + 1) * 0.5f,
+          (std::copysign(select(below, 1 - x, y), w.y) + 1) * 0.5f};
 }
 
 }  // namespace detail
