@@ -95,7 +95,7 @@ CellResult summarise(const Job& job, const std::string& key, const pt::RenderRes
   cell.rays = counters.rays + counters.shadowRays;
   if (counters.scatterings) cell.guidedShare = double(counters.guidedScatterings) / double(counters.scatterings);
   cell.rejectedSamples = counters.rejectedSamples;
-  if (result.field) cell.fieldBytes = result.field->stats().memoryBytes;
+  cell.fieldBytes = result.guideBytes;
   cell.peakMemoryBytes = peakMemoryBytes();
   return cell;
 }

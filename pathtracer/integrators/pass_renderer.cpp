@@ -2,7 +2,6 @@
 
 #include <span>
 
-#include "core/error.h"
 #include "film/pixel_filter.h"
 #include "integrators/render_clock.h"
 
@@ -11,7 +10,7 @@ namespace pt {
 namespace {
 
 constexpr int kTileSize = 16;
-/// Paths that are recorded before the field learns from them: bounds the records' memory for large pictures.
+/// Paths that are recorded before the guide learns from them: bounds the records' memory for large pictures.
 constexpr std::int64_t kRecordedPaths = 1 << 18;
 
 }  // namespace
@@ -21,7 +20,9 @@ PassRenderer::PassRenderer(const Scene& scene, const RenderSettings& settings)
       m_settings(settings),
       m_tiles(settings.width, settings.height, kTileSize),
       m_workers(settings.threads),
-      m_workerStates(std::size_t(m_workers.count())) {}
+      m_workerStates(std::size_t(m_workers.count())) {
+  for (std::size_t i = 0; i < m_workerStates.size(); ++i) m_workerStates[i].index = int(i);
+}
 
 void PassRenderer::render(const PathLoop& loop, SampleRange samples, const PassTargets& targets) {
   const std::int64_t pathsPerTile = std::int64_t(kTileSize) * kTileSize * samples.count;
@@ -63,16 +64,13 @@ void PassRenderer::renderTile(const Tile& tile, const PathLoop& loop, SampleRang
   }
 }
 
-void PassRenderer::learn(guiding::Field& field, std::size_t buffers) {
+void PassRenderer::learn(PathGuide& guide, std::size_t buffers) {
   std::size_t bytes = 0;
   for (const guiding::SampleBuffer& buffer : m_records) bytes += buffer.size() * sizeof(guiding::RadianceSample);
   m_peakRecordBytes = std::max(m_peakRecordBytes, bytes);
 
   const RenderClock clock;
-  m_workers.execute([&] {
-    if (const auto status = field.accumulate(std::span(m_records).first(buffers)); !status)
-      throw WorkError("learning from the paths failed: " + status.error().text);
-  });
+  m_workers.execute([&] { guide.learn(std::span(m_records).first(buffers)); });
   m_trainSeconds += clock.seconds();
 }
 

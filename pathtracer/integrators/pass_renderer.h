@@ -1,6 +1,5 @@
 #pragma once
 
-#include <guiding/field.h>
 #include <guiding/sample.h>
 
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include "core/tiles.h"
 #include "film/film.h"
 #include "integrators/aov_film.h"
+#include "integrators/path_guide.h"
 #include "integrators/path_loop.h"
 #include "integrators/render.h"
 
@@ -23,12 +23,12 @@ struct SampleRange {
 /// Where a pass puts what its paths found.
 struct PassTargets {
   Film& film;
-  AovFilm* aovs = nullptr;            ///< null: no layer was asked for
-  guiding::Field* learner = nullptr;  ///< null: nothing is recorded
+  AovFilm* aovs = nullptr;       ///< null: no layer was asked for
+  PathGuide* learner = nullptr;  ///< null: nothing is recorded
 };
 
 /// Renders passes over tiles, in parallel. What comes out does not depend on the number of threads: random numbers
-/// depend on pixel and sample index alone, pixels belong to one tile, and the field learns from the tiles' records in
+/// depend on pixel and sample index alone, pixels belong to one tile, and the guide learns from the tiles' records in
 /// the order of the tiles.
 class PassRenderer {
  public:
@@ -40,13 +40,13 @@ class PassRenderer {
   RenderCounters counters() const;
   /// Largest memory that records took between tracing and learning.
   std::size_t peakRecordBytes() const noexcept { return m_peakRecordBytes; }
-  /// Wall-clock seconds spent in Field::accumulate so far.
+  /// Wall-clock seconds spent in PathGuide::learn so far.
   double trainSeconds() const noexcept { return m_trainSeconds; }
 
  private:
   void renderTile(const Tile& tile, const PathLoop& loop, SampleRange samples, const PassTargets& targets,
                   PathWorker& worker, guiding::SampleBuffer* records) const;
-  void learn(guiding::Field& field, std::size_t buffers);
+  void learn(PathGuide& guide, std::size_t buffers);
 
   const Scene& m_scene;
   const RenderSettings& m_settings;

@@ -7,7 +7,7 @@
 #include "integrators/check_settings.h"
 #include "integrators/iteration_images.h"
 #include "integrators/pass_renderer.h"
-#include "integrators/path_loop.h"
+#include "integrators/path_guide.h"
 #include "integrators/render_clock.h"
 
 namespace pt {
@@ -30,7 +30,7 @@ class RenderRun {
   bool learns(const guiding::IterationPlan& plan) const;
   void renderIteration(const guiding::IterationPlan& plan);
   void closeIteration(const guiding::IterationPlan& plan);
-  void endFieldIteration();
+  void endGuideIteration();
   guiding::IterationOutcome outcomeSoFar() const;
   std::vector<double> imageWeights() const;
   Image imageSoFar(const guiding::IterationPlan& plan) const;
@@ -48,7 +48,7 @@ class RenderRun {
   Film m_film;  ///< of the current iteration
   std::optional<AovFilm> m_aovs;
   IterationImages m_images;
-  std::optional<guiding::Field> m_field;
+  std::unique_ptr<PathGuide> m_guide;                   ///< null: unguided
   std::optional<guiding::TrainingSchedule> m_schedule;  ///< none: the whole budget is one iteration
   std::vector<IterationReport> m_iterations;
 
@@ -73,16 +73,8 @@ RenderRun::RenderRun(const Scene& scene, const RenderSettings& settings, const R
   const AovSelection& aovs = settings.aovs;
   if (aovs.albedo || aovs.normal || aovs.depth) m_aovs.emplace(settings.width, settings.height, aovs);
   if (!settings.guiding || !scene.features().hasSmoothMaterials) return;
-
-  if (pretrained) {
-    checkFieldHolds(*pretrained, scene.bounds());
-    m_field = std::move(pretrained);
-    return;
-  }
-  auto field = guiding::Field::create(scene.bounds(), settings.guiding->field);
-  if (!field) throw InputError("cannot guide in this scene: " + field.error().text);
-  m_field = std::move(field).value();
-  m_schedule.emplace(settings.guiding->schedule, settings.spp, settings.seconds);
+  if (!pretrained) m_schedule.emplace(settings.guiding->schedule, settings.spp, settings.seconds);
+  m_guide = pretrained ? pretrainedGuide(std::move(*pretrained), scene) : makeGuide(scene, *settings.guiding);
 }
 
 RenderResult RenderRun::run() {
@@ -92,7 +84,7 @@ RenderResult RenderRun::run() {
     const bool isOver = stopped() || timeIsOver();
     const guiding::IterationPlan next = isOver ? guiding::IterationPlan{} : nextPlan();
     const bool isLast = next.spp == 0;
-    if (learns(plan) && (isLast ? m_settings.learnFinal : !next.keepsDensity)) endFieldIteration();
+    if (learns(plan) && (isLast ? m_settings.learnFinal : !next.keepsDensity)) endGuideIteration();
     plan = next;
   }
   return finish();
@@ -108,13 +100,14 @@ guiding::IterationPlan RenderRun::nextPlan() const {
 }
 
 bool RenderRun::learns(const guiding::IterationPlan& plan) const {
-  return m_field && (!plan.isFinal || m_settings.learnFinal);
+  return m_guide && (!plan.isFinal || m_settings.learnFinal);
 }
 
 void RenderRun::renderIteration(const guiding::IterationPlan& plan) {
-  const bool hasGuide = m_field && m_field->hasGuide();
-  const PathLoop loop(m_scene, m_settings, hasGuide ? &*m_field : nullptr);
-  const PassTargets targets{m_film, m_aovs ? &*m_aovs : nullptr, learns(plan) ? &*m_field : nullptr};
+  const bool hasGuide = m_guide && m_guide->hasGuide();
+  const std::unique_ptr<PathLoop> loop =
+      hasGuide ? m_guide->makeLoop(m_scene, m_settings, m_passes.workers().count()) : unguidedLoop(m_scene, m_settings);
+  const PassTargets targets{m_film, m_aovs ? &*m_aovs : nullptr, learns(plan) ? m_guide.get() : nullptr};
   const std::int64_t pixels = std::int64_t(m_settings.width) * m_settings.height;
   const std::int64_t sppOfPass = std::max<std::int64_t>(1, kPathsPerPass / pixels);
 
@@ -124,7 +117,7 @@ void RenderRun::renderIteration(const guiding::IterationPlan& plan) {
   do {
     const double passStart = m_clock.seconds();
     const std::int64_t count = std::min(sppOfPass, plan.spp - m_sppOfIteration);
-    m_passes.render(loop, {m_sppDone, count}, targets);
+    m_passes.render(*loop, {m_sppDone, count}, targets);
     ++m_passOfIteration;
     m_sppDone += count;
     m_sppOfIteration += count;
@@ -153,11 +146,8 @@ void RenderRun::closeIteration(const guiding::IterationPlan& plan) {
   m_images.forgetUnweighted(imageWeights());
 }
 
-void RenderRun::endFieldIteration() {
-  m_passes.workers().execute([this] {
-    if (const auto status = m_field->endIteration(double(m_sppOfIteration)); !status)
-      throw WorkError("refining the guiding field failed: " + status.error().text);
-  });
+void RenderRun::endGuideIteration() {
+  m_passes.workers().execute([this] { m_guide->endIteration(double(m_sppOfIteration)); });
   const double now = m_clock.seconds();
   m_iterations.back().freezeSeconds = now - m_iterationStart;
   m_iterations.back().seconds += now - m_iterationStart;
@@ -215,7 +205,10 @@ RenderResult RenderRun::finish() {
   result.counters.rejectedSamples = m_rejectedSamples;
   result.peakRecordBytes = m_passes.peakRecordBytes();
   result.interrupted = stopped() && (m_settings.spp == 0 ? !timeIsOver() : m_sppDone < m_settings.spp);
-  result.field = std::move(m_field);
+  if (m_guide) {
+    result.guideBytes = m_guide->memoryBytes();
+    result.field = m_guide->takeField();
+  }
   result.seconds = m_clock.seconds();
   result.cpuSeconds = m_clock.cpuSeconds();
   return result;

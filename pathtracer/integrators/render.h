@@ -53,8 +53,8 @@ struct IterationReport {
   int index = 0;
   std::int64_t spp = 0;
   double seconds = 0;        ///< wall-clock, with the two below
-  double trainSeconds = 0;   ///< Field::accumulate
-  double freezeSeconds = 0;  ///< Field::endIteration, where the iteration was learned from
+  double trainSeconds = 0;   ///< PathGuide::learn
+  double freezeSeconds = 0;  ///< PathGuide::endIteration, where the iteration was learned from
   double variance = 0;       ///< as guiding::IterationOutcome
   double weight = 0;         ///< in the final picture
 };
@@ -77,6 +77,7 @@ struct RenderResult {
   double seconds = 0;
   double cpuSeconds = 0;
   std::size_t peakRecordBytes = 0;      ///< largest memory of the records between tracing and learning
+  std::size_t guideBytes = 0;           ///< memory of what was learned at the end; 0: unguided
   bool interrupted = false;             ///< ended by RenderHooks::stop before the budget was spent
   std::optional<guiding::Field> field;  ///< none: unguided, or no material that a guide could help
 };

@@ -48,8 +48,19 @@ concept HostBsdf = requires(const B& bsdf, Imath::V3f wi, float uLobe, Imath::V2
   { bsdf.sample(uLobe, u) } -> std::same_as<BsdfDraw<typename B::Color>>;
 };
 
+/// What the mixture asks of a guide at one shading point. Any density over directions will do; the meaning of the
+/// members is that of GuidingDistribution's.
+template <class G>
+concept Guide = requires(const G& guide, Imath::V3f wi, Imath::V2f u) {
+  static_cast<bool>(guide);
+  { guide.bsdfSamplingFraction() } -> std::same_as<float>;
+  { guide.sample(u) } -> std::same_as<DirectionSample>;
+  { guide.pdf(wi) } -> std::same_as<float>;
+};
+
 /// Density of wi under the mixture, for MIS against light sampling. `bsdfPdf` is the BSDF sampler's own density of wi.
-inline float mixturePdf(const GuidingDistribution& guide, float bsdfPdf, const Imath::V3f& wi) noexcept {
+template <Guide G = GuidingDistribution>
+float mixturePdf(const G& guide, float bsdfPdf, const Imath::V3f& wi) noexcept {
   if (!guide) return bsdfPdf;
   const float alpha = guide.bsdfSamplingFraction();
   return alpha * bsdfPdf + (1 - alpha) * guide.pdf(wi);
@@ -59,8 +70,8 @@ inline float mixturePdf(const GuidingDistribution& guide, float bsdfPdf, const I
 ///
 /// The direction that is returned is the truth: both densities are those of that very float direction. Without a guide
 /// this is plain BSDF sampling. uChoice in [0,1) chooses the technique and is rescaled for reuse.
-template <HostBsdf B>
-MixtureDraw<typename B::Color> sampleMixture(const B& bsdf, const GuidingDistribution& guide, float uChoice,
+template <HostBsdf B, Guide G = GuidingDistribution>
+MixtureDraw<typename B::Color> sampleMixture(const B& bsdf, const G& guide, float uChoice,
                                              const Imath::V2f& u) noexcept {
   using Color = typename B::Color;
   MixtureDraw<Color> draw{.wi = {0, 0, 1}, .weight = Color(0.0f), .bsdfCos = Color(0.0f)};

@@ -1,11 +1,59 @@
-#include "integrators/path_loop.h"
+#pragma once
 
 #include <guiding/mis.h>
 #include <guiding/mixture.h>
 
+#include "integrators/path_loop.h"
+#include "integrators/surface_bsdf.h"
+#include "scene/scene.h"
+
 namespace pt {
 
-struct PathLoop::PathState {
+/// Where the path loop gets the guide of a shading point from. The sampler and the worker are for look-ups that are
+/// random or need memory.
+template <class G>
+concept GuideSource = requires(const G& guides, const SurfaceInteraction& si, const SurfaceBsdf& bsdf, Sampler& sampler,
+                               PathWorker& worker) {
+  requires guiding::Guide<typename G::Distribution>;
+  { guides.bind(si, bsdf, sampler, worker) } -> std::same_as<typename G::Distribution>;
+};
+
+/// The path tracer: unidirectional paths with light sampling, guided where `Guides` offers a guide.
+template <GuideSource Guides>
+class GuidedPathLoop final : public PathLoop {
+ public:
+  /// Light sampling is left out when no light of the scene can be sampled.
+  GuidedPathLoop(const Scene& scene, const RenderSettings& settings, Guides guides) noexcept
+      : m_scene(scene),
+        m_guides(std::move(guides)),
+        m_settings(settings.path),
+        m_nee(settings.nee && scene.features().hasSampleableLights),
+        m_powerHeuristic(settings.heuristic == MisHeuristic::Power) {}
+
+  Spectrum trace(Ray ray, Sampler& sampler, PathWorker& worker) const noexcept override;
+
+ private:
+  using Distribution = typename Guides::Distribution;
+  struct PathState;
+
+  Spectrum emission(const PathState& path, const Ray& ray, const SurfaceInteraction* hit) const noexcept;
+  bool survivesRoulette(PathState& path, Sampler& sampler, PathWorker& worker) const noexcept;
+  Spectrum sampleDirect(const SurfaceInteraction& si, const SurfaceBsdf& bsdf, const Distribution& guide,
+                        Sampler& sampler, RenderCounters& counters) const noexcept;
+  bool scatter(PathState& path, const SurfaceInteraction& si, const SurfaceBsdf& bsdf, const Distribution& guide,
+               Sampler& sampler, PathWorker& worker, Ray& ray) const noexcept;
+  bool pathEnds(const PathState& path, const SurfaceInteraction& si) const noexcept;
+  float misWeight(float pdf, float otherPdf) const noexcept;
+
+  const Scene& m_scene;
+  Guides m_guides;
+  IntegratorDescription m_settings;
+  bool m_nee;
+  bool m_powerHeuristic;
+};
+
+template <GuideSource Guides>
+struct GuidedPathLoop<Guides>::PathState {
   Spectrum radiance{0.0f};
   Spectrum throughput{1.0f};
   /// The throughput that BSDF sampling alone would have given this path. Roulette goes by it: a guide makes the
@@ -18,14 +66,8 @@ struct PathLoop::PathState {
   bool isDelta = true;  ///< light sampling at `previous` cannot find what the ray met: camera rays and delta scattering
 };
 
-PathLoop::PathLoop(const Scene& scene, const RenderSettings& settings, const guiding::Field* field) noexcept
-    : m_scene(scene),
-      m_field(field),
-      m_settings(settings.path),
-      m_nee(settings.nee && scene.features().hasSampleableLights),
-      m_powerHeuristic(settings.heuristic == MisHeuristic::Power) {}
-
-Spectrum PathLoop::trace(Ray ray, Sampler& sampler, PathWorker& worker) const noexcept {
+template <GuideSource Guides>
+Spectrum GuidedPathLoop<Guides>::trace(Ray ray, Sampler& sampler, PathWorker& worker) const noexcept {
   PathState path;
   SurfaceInteraction si;
   if (worker.records) worker.recorder.begin();
@@ -50,7 +92,7 @@ Spectrum PathLoop::trace(Ray ray, Sampler& sampler, PathWorker& worker) const no
     // The guide at this point
     const SurfaceBsdf bsdf(si, m_settings.strictNormals);
     const bool hasSmooth = si.material->traits().hasSmooth;
-    const auto guide = hasSmooth ? bindGuide(si, bsdf) : guiding::GuidingDistribution();
+    const auto guide = hasSmooth ? m_guides.bind(si, bsdf, sampler, worker) : Distribution();
 
     // Direct light
     if (m_nee && hasSmooth) {
@@ -65,12 +107,9 @@ Spectrum PathLoop::trace(Ray ray, Sampler& sampler, PathWorker& worker) const no
   return path.radiance;
 }
 
-guiding::GuidingDistribution PathLoop::bindGuide(const SurfaceInteraction& si, const SurfaceBsdf& bsdf) const noexcept {
-  if (!m_field) return {};
-  return m_field->settings().product ? m_field->bind(si.p, bsdf.lobes()) : m_field->bind(si.p);
-}
-
-Spectrum PathLoop::emission(const PathState& path, const Ray& ray, const SurfaceInteraction* hit) const noexcept {
+template <GuideSource Guides>
+Spectrum GuidedPathLoop<Guides>::emission(const PathState& path, const Ray& ray,
+                                          const SurfaceInteraction* hit) const noexcept {
   if (m_settings.hideEmitters && path.depth == 1) return Spectrum(0.0f);
   Spectrum emitted(0.0f);
   if (hit) {
@@ -83,13 +122,15 @@ Spectrum PathLoop::emission(const PathState& path, const Ray& ray, const Surface
   return emitted * misWeight(path.pdf, lightPdf);
 }
 
-bool PathLoop::pathEnds(const PathState& path, const SurfaceInteraction& si) const noexcept {
+template <GuideSource Guides>
+bool GuidedPathLoop<Guides>::pathEnds(const PathState& path, const SurfaceInteraction& si) const noexcept {
   if (!si.material) return true;
   if (m_settings.maxDepth >= 0 && path.depth >= m_settings.maxDepth) return true;
   return m_settings.strictNormals && si.ng.dot(si.wo) * si.frame.n.dot(si.wo) <= 0;
 }
 
-bool PathLoop::survivesRoulette(PathState& path, Sampler& sampler, PathWorker& worker) const noexcept {
+template <GuideSource Guides>
+bool GuidedPathLoop<Guides>::survivesRoulette(PathState& path, Sampler& sampler, PathWorker& worker) const noexcept {
   if (path.depth <= m_settings.rrDepth) return true;
   // The radiance carried shrinks by eta^2 at each refraction and may grow again at the next; roulette looks past that.
   const float survivalProbability = std::min(maxComponent(path.rouletteThroughput) * path.eta * path.eta, 0.95f);
@@ -100,9 +141,10 @@ bool PathLoop::survivesRoulette(PathState& path, Sampler& sampler, PathWorker& w
   return true;
 }
 
-Spectrum PathLoop::sampleDirect(const SurfaceInteraction& si, const SurfaceBsdf& bsdf,
-                                const guiding::GuidingDistribution& guide, Sampler& sampler,
-                                RenderCounters& counters) const noexcept {
+template <GuideSource Guides>
+Spectrum GuidedPathLoop<Guides>::sampleDirect(const SurfaceInteraction& si, const SurfaceBsdf& bsdf,
+                                              const Distribution& guide, Sampler& sampler,
+                                              RenderCounters& counters) const noexcept {
   const float uLight = sampler.next1D();
   const DirectSample light = m_scene.sampleDirect(si.p, uLight, sampler.next2D());
   if (!(light.pdf > 0) || isBlack(light.radiance)) return Spectrum(0.0f);
@@ -114,9 +156,10 @@ Spectrum PathLoop::sampleDirect(const SurfaceInteraction& si, const SurfaceBsdf&
   return f.bsdfCos * light.radiance * (weight / light.pdf);
 }
 
-bool PathLoop::scatter(PathState& path, const SurfaceInteraction& si, const SurfaceBsdf& bsdf,
-                       const guiding::GuidingDistribution& guide, Sampler& sampler, PathWorker& worker,
-                       Ray& ray) const noexcept {
+template <GuideSource Guides>
+bool GuidedPathLoop<Guides>::scatter(PathState& path, const SurfaceInteraction& si, const SurfaceBsdf& bsdf,
+                                     const Distribution& guide, Sampler& sampler, PathWorker& worker,
+                                     Ray& ray) const noexcept {
   const float uChoice = sampler.next1D();
   const auto draw = guiding::sampleMixture(bsdf, guide, uChoice, sampler.next2D());
   ++worker.counters.scatterings;
@@ -136,7 +179,8 @@ bool PathLoop::scatter(PathState& path, const SurfaceInteraction& si, const Surf
   return true;
 }
 
-float PathLoop::misWeight(float pdf, float otherPdf) const noexcept {
+template <GuideSource Guides>
+float GuidedPathLoop<Guides>::misWeight(float pdf, float otherPdf) const noexcept {
   return m_powerHeuristic ? guiding::powerHeuristic(1, pdf, 1, otherPdf)
                           : guiding::balanceHeuristic(1, pdf, 1, otherPdf);
 }
