@@ -9,6 +9,8 @@
 #include "fit/fit.h"
 #include "integrators/guiding_presets.h"
 #include "integrators/settings_json.h"
+#include "openpgl/openpgl_field.h"
+#include "peers/openpgl_bench.h"
 
 namespace bench {
 
@@ -22,24 +24,32 @@ struct Options {
 
 struct NamedSettings {
   std::string name;
-  guiding::FieldSettings field;
+  pt::GuidingSettings settings;
 };
 
-/// The presets, plain and compensated, and the user's own files.
+/// The presets, ours plain and compensated, or the user's own files.
 std::vector<NamedSettings> settingsToFit(const std::vector<std::string>& files) {
   std::vector<NamedSettings> all;
   for (const std::string& file : files)
-    all.push_back({std::filesystem::path(file).stem().string(), pt::loadGuidingSettings(file).field});
+    all.push_back({std::filesystem::path(file).stem().string(), pt::loadGuidingSettings(file)});
   if (!all.empty()) return all;
   for (const pt::GuidingPreset& preset : pt::guidingPresets()) {
-    if (!preset.settings) continue;
-    guiding::FieldSettings plain = preset.settings->field, compensated = plain;
-    plain.compensation.form = guiding::CompensationForm::None;
-    compensated.compensation = {guiding::CompensationForm::WaterFilling, 1};
+    if (!preset.settings || (preset.settings->openPgl && !pt::hasOpenPgl())) continue;
+    if (preset.settings->openPgl) {
+      all.push_back({std::string(preset.name), *preset.settings});
+      continue;
+    }
+    pt::GuidingSettings plain = *preset.settings, compensated = plain;
+    plain.field.compensation.form = guiding::CompensationForm::None;
+    compensated.field.compensation = {guiding::CompensationForm::WaterFilling, 1};
     all.push_back({std::string(preset.name) + ", plain", plain});
     all.push_back({std::string(preset.name) + ", compensated", compensated});
   }
   return all;
+}
+
+FitQuality fitSettings(const LightField& light, const pt::GuidingSettings& settings, const FitPlan& plan) {
+  return settings.openPgl ? fitOpenPgl(light, *settings.openPgl, plan) : fit(light, settings.field, plan);
 }
 
 std::string format(double x) {
@@ -73,7 +83,7 @@ int runFit(const Options& options) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const FitTarget& target : fitTargets())
     for (const NamedSettings& settings : settingsToFit(options.settings)) {
-      const FitQuality quality = fit(target.light, settings.field, options.plan);
+      const FitQuality quality = fitSettings(target.light, settings.settings, options.plan);
       printRow(target.name, settings.name, quality);
       rows.push_back(toJson(target.name, settings.name, quality));
     }

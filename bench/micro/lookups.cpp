@@ -1,15 +1,15 @@
 #include <guiding/mixture.h>
 
+#include <memory>
 #include <vector>
 
 #include "micro/micro.h"
+#include "micro/queries.h"
 #include "synthetic/random.h"
 
 namespace bench {
 
 namespace {
-
-constexpr std::size_t kQueries = 1 << 14;  // enough to touch every leaf, in random order
 
 /// A white diffuse surface.
 struct DiffuseBsdf {
@@ -28,23 +28,7 @@ struct DiffuseBsdf {
   }
 };
 
-struct Query {
-  Imath::V3f position, direction, normal;
-  Imath::V2f u;
-  float uChoice = 0;
-};
-
-std::vector<Query> makeQueries(const guiding::Field& field) {
-  Random random(3);
-  std::vector<Query> queries(kQueries);
-  const Imath::V3f size = field.bounds().size();
-  for (Query& q : queries)
-    q = {field.bounds().min + random.next3D() * size, random.nextDirection(), random.nextDirection(), random.next2D(),
-         random.next1D()};
-  return queries;
-}
-
-std::vector<guiding::GuidingDistribution> bindAll(const guiding::Field& field, const std::vector<Query>& queries) {
+std::vector<guiding::GuidingDistribution> bindAll(const guiding::Field& field, const Queries& queries) {
   std::vector<guiding::GuidingDistribution> guides;
   for (const Query& q : queries)
     if (const auto guide = field.bind(q.position)) guides.push_back(guide);
@@ -58,38 +42,34 @@ void countField(benchmark::State& state, const guiding::Field& field) {
   state.counters["nodesPerLeaf"] = double(stats.quadtreeNodes) / double(stats.spatialLeaves);
 }
 
-void bind(benchmark::State& state, const guiding::Field& field) {
-  const auto queries = makeQueries(field);
+void bind(benchmark::State& state, const guiding::Field& field, const Queries& queries) {
   std::size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(field.bind(queries[i++ % kQueries].position));
+  for (auto _ : state) benchmark::DoNotOptimize(field.bind(queries[i++ % queries.size()].position));
   countField(state, field);
 }
 
-void sample(benchmark::State& state, const guiding::Field& field) {
-  const auto queries = makeQueries(field);
+void sample(benchmark::State& state, const guiding::Field& field, const Queries& queries) {
   const auto guides = bindAll(field, queries);
   std::size_t i = 0, g = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(guides[g].sample(queries[i++ % kQueries].u));
+    benchmark::DoNotOptimize(guides[g].sample(queries[i++ % queries.size()].u));
     if (++g == guides.size()) g = 0;
   }
 }
 
-void pdf(benchmark::State& state, const guiding::Field& field) {
-  const auto queries = makeQueries(field);
+void pdf(benchmark::State& state, const guiding::Field& field, const Queries& queries) {
   const auto guides = bindAll(field, queries);
   std::size_t i = 0, g = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(guides[g].pdf(queries[i++ % kQueries].direction));
+    benchmark::DoNotOptimize(guides[g].pdf(queries[i++ % queries.size()].direction));
     if (++g == guides.size()) g = 0;
   }
 }
 
-void vertex(benchmark::State& state, const guiding::Field& field) {
-  const auto queries = makeQueries(field);
+void vertex(benchmark::State& state, const guiding::Field& field, const Queries& queries) {
   std::size_t i = 0;
   for (auto _ : state) {
-    const Query& q = queries[i++ % kQueries];
+    const Query& q = queries[i++ % queries.size()];
     const guiding::GuidingDistribution guide = field.bind(q.position);
     if (!guide) continue;
     benchmark::DoNotOptimize(guide.sample(q.u));
@@ -98,11 +78,10 @@ void vertex(benchmark::State& state, const guiding::Field& field) {
 }
 
 /// The same bound to a diffuse surface, for fields that multiply the product in.
-void boundVertex(benchmark::State& state, const guiding::Field& field) {
-  const auto queries = makeQueries(field);
+void boundVertex(benchmark::State& state, const guiding::Field& field, const Queries& queries) {
   std::size_t i = 0;
   for (auto _ : state) {
-    const Query& q = queries[i++ % kQueries];
+    const Query& q = queries[i++ % queries.size()];
     guiding::LobeSet lobes;
     lobes.add({guiding::Lobe::Shape::Cosine, q.normal, 0, 0.7f, 1});
     const guiding::GuidingDistribution guide = field.bind(q.position, lobes);
@@ -112,11 +91,10 @@ void boundVertex(benchmark::State& state, const guiding::Field& field) {
   }
 }
 
-void mixture(benchmark::State& state, const guiding::Field& field) {
-  const auto queries = makeQueries(field);
+void mixture(benchmark::State& state, const guiding::Field& field, const Queries& queries) {
   std::size_t i = 0;
   for (auto _ : state) {
-    const Query& q = queries[i++ % kQueries];
+    const Query& q = queries[i++ % queries.size()];
     const DiffuseBsdf bsdf{q.direction};
     benchmark::DoNotOptimize(guiding::sampleMixture(bsdf, field.bind(q.position), q.uChoice, q.u));
   }
@@ -124,10 +102,12 @@ void mixture(benchmark::State& state, const guiding::Field& field) {
 
 }  // namespace
 
-void registerLookups(const std::string& fieldName, const guiding::Field& field) {
-  const auto add = [&](const char* name, void (*run)(benchmark::State&, const guiding::Field&)) {
+void registerLookups(const std::string& fieldName, const guiding::Field& field, const std::vector<Imath::V3f>& places) {
+  const auto queries =
+      std::make_shared<Queries>(places.empty() ? queriesInBox(field.bounds()) : queriesAt(places));  // of all lambdas
+  const auto add = [&](const char* name, void (*run)(benchmark::State&, const guiding::Field&, const Queries&)) {
     benchmark::RegisterBenchmark((std::string(name) + "/" + fieldName).c_str(),
-                                 [run, &field](benchmark::State& s) { run(s, field); });
+                                 [run, &field, queries](benchmark::State& s) { run(s, field, *queries); });
   };
   add("bind", bind);
   add("sample", sample);

@@ -16,7 +16,7 @@ guiding::FieldSettings settings(guiding::CompensationForm form, bool product) {
 
 }  // namespace
 
-int runMicro(int argc, char** argv) {
+int runMicro(int argc, char** argv, const std::function<void()>& registerMore) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   using enum guiding::CompensationForm;
@@ -30,6 +30,7 @@ int runMicro(int argc, char** argv) {
   registerLookups("product+compensated", both);
   registerTraining();
   registerStorage("plain", plain);
+  if (registerMore) registerMore();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "integrators/settings_json.h"
 
 namespace bench {
 
@@ -102,6 +103,7 @@ std::string cellKey(const Plan& plan, const Job& job, const std::string& sceneHa
   const ReferenceEstimator& reference = job.scene->reference.main;
   json["reference"] = {referenceKey(*job.scene, reference, sceneHash), reference.parts};
   json["variant"] = job.variant->source;
+  if (job.variant->guiding) json["variant"]["guiding"] = pt::toJson(*job.variant->guiding);  // presets may change
   json["variant"].erase("note");
   const Budget& budget = plan.budgetOf(*job.scene);
   json["budget"] = {budget.seconds, budget.spp};

@@ -1,5 +1,7 @@
 #include "synthetic/light_field.h"
 
+#include <limits>
+
 #include "synthetic/around_axis.h"
 
 namespace bench {
@@ -8,9 +10,12 @@ namespace {
 
 constexpr double kTau = 2 * std::numbers::pi;
 
+bool isNear(const Light& light) {
+  return light.shape == Light::Shape::Ball || light.shape == Light::Shape::NearLobe;
+}
+
 Imath::V3f axisOf(const Light& light, const Imath::V3f& position) {
-  const bool isNear = light.shape == Light::Shape::Ball || light.shape == Light::Shape::NearLobe;
-  return isNear ? (light.center - position).normalized() : light.center;
+  return isNear(light) ? (light.center - position).normalized() : light.center;
 }
 
 /// 1 - cosine of the angle under which the ball's radius is seen, without cancellation for a far one.
@@ -86,6 +91,18 @@ double LightField::fluence(const Imath::V3f& position) const noexcept {
   double sum = 0;
   for (const Light& light : lights) sum += fluenceOf(light, position);
   return sum;
+}
+
+double LightField::distance(const Imath::V3f& position, const Imath::V3f& wi) const noexcept {
+  const Light* brightest = nullptr;
+  double most = 0;
+  for (const Light& light : lights)
+    if (const double radiance = radianceOf(light, position, wi); radiance > most) {
+      most = radiance;
+      brightest = &light;
+    }
+  if (!brightest || !isNear(*brightest)) return std::numeric_limits<double>::infinity();
+  return (brightest->center - position).length();
 }
 
 Imath::V3f LightField::sample(const Imath::V3f& position, Random& random) const noexcept {

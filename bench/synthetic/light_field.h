@@ -32,6 +32,8 @@ struct LightField {
   double radiance(const Imath::V3f& position, const Imath::V3f& wi) const noexcept;
   /// Integral of the radiance over the sphere.
   double fluence(const Imath::V3f& position) const noexcept;
+  /// Distance of the light that most of that radiance comes from; infinite for one that looks alike from every place.
+  double distance(const Imath::V3f& position, const Imath::V3f& wi) const noexcept;
   /// Draws a direction with density radiance / fluence.
   Imath::V3f sample(const Imath::V3f& position, Random& random) const noexcept;
 };

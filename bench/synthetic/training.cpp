@@ -20,7 +20,7 @@ guiding::SampleBuffer recordSamples(const LightField& light, const guiding::Fiel
     sample.pdf = alpha * sample.bsdfPdf + (1 - alpha) * sample.guidePdf;
     sample.radiance = float(light.radiance(sample.position, sample.direction));
     sample.product = sample.radiance;
-    sample.distance = 1;
+    sample.distance = float(light.distance(sample.position, sample.direction));
     buffer.add(sample);
   }
   return buffer;

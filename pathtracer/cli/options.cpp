@@ -68,7 +68,10 @@ std::optional<GuidingSettings> guidingSettings(const SamplingOptions& options) {
   std::optional<GuidingSettings> settings = findGuiding(isDefault ? "mueller2017" : options.guiding);
   std::string compensation = options.compensation;
   if (isDefault && compensation.empty()) compensation = "uniform";
-  if (settings && !compensation.empty()) settings->field.compensation = parseCompensation(compensation);
+  if (settings && !compensation.empty()) {
+    if (settings->openPgl) throw InputError(fmt::format("--compensation {}: Open PGL has none", compensation));
+    settings->field.compensation = parseCompensation(compensation);
+  }
   return settings;
 }
 
@@ -164,6 +167,8 @@ RenderSettings renderSettings(const SamplingOptions& options, const SceneDescrip
   if (!options.field.empty() && !settings.guiding)
     throw InputError(
         fmt::format("--field {}: a trained field is of no use with --guiding none", options.field.string()));
+  if (!options.field.empty() && settings.guiding->openPgl)
+    throw InputError(fmt::format("--field {}: Open PGL cannot guide with it", options.field.string()));
   return settings;
 }
 

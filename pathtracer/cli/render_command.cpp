@@ -125,6 +125,7 @@ void renderPicture(RenderOptions options) {
     throw InputError("--save-field: there is no field to save with --guiding none");
   const AovSelection aovs = parseAovs(options.aovs);
   RenderJob job = prepareJob(options.scene, options.sampling);
+  if (!options.saveField.empty()) requireSaveable(job);
   job.settings.aovs = aovs;
   const RenderResult result = runJob(job);
   writeOutputs(options, job, result);

@@ -58,6 +58,11 @@ guiding::Field loadField(const std::filesystem::path& file) {
   return std::move(field).value();
 }
 
+void requireSaveable(const RenderJob& job) {
+  if (job.settings.guiding && job.settings.guiding->openPgl)
+    throw InputError("a field of Open PGL's cannot be saved; choose another preset");
+}
+
 void saveField(const guiding::Field& field, const std::filesystem::path& file) {
   requireReplaceable(file);
   if (const auto status = guiding::save(field, file); !status) throw WorkError(status.error().text);

@@ -27,6 +27,9 @@ RenderResult runJob(RenderJob& job);
 /// Reads a trained field. Throws InputError.
 guiding::Field loadField(const std::filesystem::path& file);
 
+/// Throws InputError for guiding settings whose field cannot be saved.
+void requireSaveable(const RenderJob& job);
+
 /// Throws WorkError.
 void saveField(const guiding::Field& field, const std::filesystem::path& file);
 

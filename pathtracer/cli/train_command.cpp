@@ -26,6 +26,7 @@ void train(TrainOptions options) {
   if (!options.report.empty()) requireReplaceable(options.report);
 
   RenderJob job = prepareJob(options.scene, options.sampling);
+  requireSaveable(job);
   if (!job.scene->features().hasSmoothMaterials)
     throw InputError(
         fmt::format("{}: no material that a guide could help (all are perfectly smooth); render it without training",

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "openpgl/openpgl_field.h"
 
 namespace pt {
 
@@ -51,6 +52,10 @@ void checkSettings(const RenderSettings& settings) {
     throw InputError("guiding settings: " + status.error().text);
   if (const auto status = settings.guiding->schedule.validate(); !status)
     throw InputError("guiding settings: " + status.error().text);
+  if (!settings.guiding->openPgl) return;
+  if (!hasOpenPgl()) throw InputError(std::string("guiding settings: ") + kNoOpenPgl);
+  if (const auto status = settings.guiding->openPgl->validate(); !status)
+    throw InputError("guiding settings: openpgl: " + status.error().text);
 }
 
 void checkFieldHolds(const guiding::Field& field, const Box3& sceneBounds) {

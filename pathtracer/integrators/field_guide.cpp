@@ -2,6 +2,7 @@
 #include "integrators/check_settings.h"
 #include "integrators/guided_path_loop.h"
 #include "integrators/path_guide.h"
+#include "openpgl/openpgl_guide.h"
 
 namespace pt {
 
@@ -48,6 +49,7 @@ class FieldGuide final : public PathGuide {
 }  // namespace
 
 std::unique_ptr<PathGuide> makeGuide(const Scene& scene, const GuidingSettings& settings) {
+  if (settings.openPgl) return makeOpenPglGuide(scene, *settings.openPgl);
   auto field = guiding::Field::create(scene.bounds(), settings.field);
   if (!field) throw InputError("cannot guide in this scene: " + field.error().text);
   return std::make_unique<FieldGuide>(std::move(field).value());

@@ -77,6 +77,15 @@ struct Labels<guiding::SampleCombination> {
 };
 
 template <>
+struct Labels<OpenPglModel> {
+  static constexpr std::array<std::pair<OpenPglModel, std::string_view>, 3> kTable{{
+      {OpenPglModel::ParallaxVmm, "parallaxVmm"},
+      {OpenPglModel::Vmm, "vmm"},
+      {OpenPglModel::Quadtree, "quadtree"},
+  }};
+};
+
+template <>
 struct Labels<MisHeuristic> {
   static constexpr std::array<std::pair<MisHeuristic, std::string_view>, 2> kTable{{
       {MisHeuristic::Balance, "balance"},

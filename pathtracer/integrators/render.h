@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "film/film.h"
+#include "openpgl/openpgl_settings.h"
 #include "scene/scene.h"
 
 namespace pt {
@@ -21,6 +22,7 @@ enum class MisHeuristic { Balance, Power };
 struct GuidingSettings {
   guiding::FieldSettings field;
   guiding::ScheduleSettings schedule;
+  std::optional<OpenPglSettings> openPgl;  ///< there: Open PGL guides in the field's place
 };
 
 struct AovSelection {

@@ -51,8 +51,20 @@ void visitMembers(Is<guiding::ScheduleSettings> auto& s, auto&& visitor) {
   visitor("combinedIterations", s.combinedIterations);
 }
 
+void visitMembers(Is<OpenPglSettings> auto& s, auto&& visitor) {
+  visitor("model", s.model);
+  visitor("maxSamplesPerLeaf", s.maxSamplesPerLeaf);
+  visitor("samplesPerUpdate", s.samplesPerUpdate);
+  visitor("deterministic", s.deterministic);
+  visitor("cosineProduct", s.cosineProduct);
+  visitor("bsdfSamplingFraction", s.bsdfSamplingFraction);
+}
+
 void visitMembers(Is<GuidingSettings> auto& s, auto&& visitor) {
-  visitor("field", s.field);
+  if (s.openPgl)
+    visitor("openpgl", *s.openPgl);
+  else
+    visitor("field", s.field);
   visitor("schedule", s.schedule);
 }
 
@@ -135,7 +147,8 @@ void readMembers(const Place& place, T& settings, std::vector<std::string> other
 
 GuidingSettings presetOf(const Place& place) {
   const auto found = place.json.is_object() ? place.json.find("preset") : place.json.end();
-  if (!place.json.is_object() || found == place.json.end()) return *findGuidingPreset("mueller2017")->settings;
+  if (!place.json.is_object() || found == place.json.end())
+    return *findGuidingPreset(place.json.contains("openpgl") ? "openpgl" : "mueller2017")->settings;
   const std::string name = found->is_string() ? found->get<std::string>() : found->dump();
   const GuidingPreset* preset = findGuidingPreset(name);
   if (preset && preset->settings) return *preset->settings;
@@ -157,6 +170,9 @@ GuidingSettings guidingSettingsFromJson(const nlohmann::ordered_json& json, cons
     Place{json, source, pointer + "/field"}.fail(status.error().text);
   if (const auto status = settings.schedule.validate(); !status)
     Place{json, source, pointer + "/schedule"}.fail(status.error().text);
+  if (!settings.openPgl) return settings;
+  if (const auto status = settings.openPgl->validate(); !status)
+    Place{json, source, pointer + "/openpgl"}.fail(status.error().text);
   return settings;
 }
 

@@ -9,7 +9,8 @@
 namespace pt {
 
 /// Reads guiding settings: {"preset": "mueller2017", "field": {...}, "schedule": {...}}, each part optional; what is
-/// left out is as in the preset (mueller2017 by default). The keys are the members' names. Throws InputError with
+/// left out is as in the preset (mueller2017 by default). The keys are the members' names. "openpgl" takes the place of
+/// "field" with a preset of Open PGL's, and chooses one by itself. Throws InputError with
 /// `source` and the JSON pointer (`pointer` is that of `json` itself) for wrong types, unknown keys (naming the nearest
 /// known one) and values out of range.
 GuidingSettings guidingSettingsFromJson(const nlohmann::ordered_json& json, const std::string& source,
