@@ -29,16 +29,18 @@ void PathRecorder::finish(SampleBuffer& out) noexcept {
   Imath::V3f scattered(0, 0, 0);
   for (std::size_t i = m_vertices.size(); i-- > 0;) {
     Vertex& v = m_vertices[i];
-    v.incident = v.emission + (v.direct + scattered) / v.survivalProbability;
-    scattered = v.event.weight * v.incident;
+    const Imath::V3f incident = v.emission + (v.direct + scattered) * v.inverseSurvival;
+    v.radiance = mean(incident);
+    v.product = mean(v.event.bsdfCos * incident);
+    scattered = v.event.weight * incident;
   }
   for (const Vertex& v : m_vertices) {
     if (v.event.isDelta) continue;
     RadianceSample sample;
     sample.position = v.event.position;
     sample.direction = v.event.wi;
-    sample.radiance = mean(v.incident);
-    sample.product = mean(v.event.bsdfCos * v.incident);
+    sample.radiance = v.radiance;
+    sample.product = v.product;
     sample.pdf = v.event.pdf;
     sample.bsdfPdf = v.event.bsdfPdf;
     sample.guidePdf = v.event.guidePdf;

@@ -159,10 +159,7 @@ TEST_CASE("What needs no memory works without") {
 TEST_CASE("Recording counts what it has no memory for, and goes on when there is some") {
   SampleBuffer buffer;
   PathRecorder recorder;
-  PathRecorder::Scatter event;
-  event.wi = {0, 0, 1};
-  event.pdf = event.bsdfPdf = 1;
-  event.weight = event.bsdfCos = Imath::V3f(1);
+  const PathRecorder::Scatter event{{0, 0, 0}, {0, 0, 1}, {1, 1, 1}, {1, 1, 1}, 1, 1, 0, false};
   const auto path = [&](int bounces) {
     recorder.begin();
     for (int i = 0; i < bounces; ++i) recorder.scatter(event);

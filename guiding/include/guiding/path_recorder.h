@@ -37,7 +37,7 @@ class PathRecorder {
   };
   void scatter(const Scatter& event) noexcept {
     if (m_vertices.size() < m_vertices.capacity() || grow())
-      m_vertices.push_back({event, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 1.0f, kNoDistance});
+      m_vertices.emplace_back(event);
     else
       ++m_lost;
   }
@@ -60,7 +60,7 @@ class PathRecorder {
 
   /// The path outlived Russian roulette at the vertex that the last scatter() reached with this probability, in (0, 1].
   void survived(float probability) noexcept {
-    if (!m_vertices.empty()) m_vertices.back().survivalProbability *= probability;
+    if (!m_vertices.empty()) m_vertices.back().inverseSurvival /= probability;
   }
 
   /// Appends one sample for each event that is not a delta event, first vertex first, and forgets the path. A path that
@@ -70,13 +70,16 @@ class PathRecorder {
  private:
   static constexpr float kNoDistance = -1;
 
-  struct Vertex {
+  /// Each V3f fills a 16-byte slot with one float: what was stored as one is read back without a stall.
+  struct alignas(16) Vertex {
+    explicit Vertex(const Scatter& e) noexcept : event(e) {}
+
     Scatter event;
-    Imath::V3f emission;  ///< arrives at this vertex from the end of its ray
-    Imath::V3f direct;    ///< scattered towards this vertex at the end of its ray by light sampling there
-    Imath::V3f incident;  ///< filled by finish()
-    float survivalProbability;
-    float distance;
+    Imath::V3f direct{0, 0, 0};       ///< scattered towards this vertex at the end of its ray by light sampling there
+    float distance = kNoDistance;     ///< to the end of its ray
+    Imath::V3f emission{0, 0, 0};     ///< arrives at this vertex from the end of its ray
+    float inverseSurvival = 1;        ///< 1 / chance that the path went on there
+    float radiance = 0, product = 0;  ///< of the sample; filled by finish()
   };
   bool grow() noexcept;
 
