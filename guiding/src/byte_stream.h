@@ -55,6 +55,7 @@ class ByteReader {
   }
 
   std::size_t remaining() const noexcept { return m_bytes.size() - m_position; }
+  void fail() noexcept { m_failed = true; }  ///< what was read makes no sense
   bool failed() const noexcept { return m_failed; }
 
  private:

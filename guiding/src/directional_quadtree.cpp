@@ -28,7 +28,8 @@ DirectionalQuadtree DirectionalQuadtree::refined(double total, double threshold,
   std::vector<Cell> cells{{0, m_nodes[0].sum, 1}};  // parallel to next.m_nodes
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Cell cell = cells[i];
-    QuadtreeLinks links{std::uint32_t(cells.size()), 0};
+    QuadtreeLinks links;
+    links.startAt(cells.size());
     for (int c = 0; c < 4; ++c) {
       if (cell.depth >= maxDepth || !(cell.sum[c] > threshold * total)) continue;
       links.mask |= 1u << c;

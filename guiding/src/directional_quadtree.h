@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include "sphere_map.h"
@@ -11,9 +12,14 @@ namespace guiding {
 
 /// Four child slots of a quadtree node. Children that are themselves subdivided stand together in the node array.
 struct QuadtreeLinks {
-  std::uint32_t first = 0;  ///< index of the first subdivided child
-  std::uint32_t mask = 0;   ///< bit c: child c is subdivided
+  std::uint32_t first : 28 = 0;  ///< index of the first subdivided child
+  std::uint32_t mask : 4 = 0;    ///< bit c: child c is subdivided
 
+  /// Throws std::length_error for more nodes than a tree can have.
+  void startAt(std::size_t child) {
+    if (child >= 1u << 28) throw std::length_error("more nodes in a quadtree than 28 bits count");
+    first = std::uint32_t(child) & 0xfffffffu;
+  }
   bool isLeaf(int child) const noexcept { return !(mask >> child & 1u); }
   std::uint32_t childIndex(int child) const noexcept {
     return first + std::uint32_t(__builtin_popcount(mask & ((1u << child) - 1u)));

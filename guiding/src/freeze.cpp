@@ -116,7 +116,7 @@ std::vector<GuidingDensity::Node> nodesBelow(const std::vector<LearnedNode>& lea
   for (std::size_t i = 0; i < source.size(); ++i) {  // `source` grows as children are found
     const LearnedNode& from = learned[source[i]];
     GuidingDensity::Node node = conditional(from);
-    node.links.first = std::uint32_t(source.size());
+    node.links.startAt(source.size());
     for (int c = 0; c < 4; ++c) {
       if (from.links.isLeaf(c) || !(node.share(c) > 0)) continue;
       node.links.mask |= 1u << c;

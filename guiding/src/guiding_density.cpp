@@ -12,14 +12,6 @@ float belowOne(float x) noexcept {
   return x < kOneMinusEpsilon ? x : kOneMinusEpsilon;
 }
 
-/// Chooses the upper half with probability 1 - p, with x in [0,1), and rescales x for reuse. p = 0 and p = 1 never
-/// choose the empty half.
-int chooseHalf(float p, float& x) noexcept {
-  const bool upper = x >= p;
-  x = belowOne((x - select(upper, p, 0.0f)) / select(upper, 1 - p, p));
-  return upper;
-}
-
 }  // namespace
 
 float GuidingDensity::pdf(std::uint32_t index, const Grid& grid, const Imath::V3f& wi) const noexcept {
@@ -45,25 +37,33 @@ DirectionSample GuidingDensity::sample(std::uint32_t index, const Grid& grid, co
   const Tree& tree = m_trees[index];
   const Grid::Choice choice = grid.sample({belowOne(u.x), belowOne(u.y)});
   const int gridCell = choice.x * Grid::kSize + choice.y;
-  float x = choice.rest.x, y = choice.rest.y;
+  Descent toX = choice.restX, toY = choice.restY;
   float density = Grid::kCells * kInvFourPi * grid.mass(choice.x, choice.y);
-  float size = 1.0f / Grid::kSize;
-  Imath::V2f corner(float(choice.x) * size, float(choice.y) * size);
+  int depth = Grid::kDepth, cellX = choice.x, cellY = choice.y;
 
   if (!tree.isLeafCell(gridCell)) {
     const Node* nodes = m_nodes.data() + tree.firstNode;
     const Node* node = nodes + tree.nodeOfCell(gridCell);
     for (;;) {
-      const int column = chooseHalf(node->column0, x);
-      const int row = chooseHalf(node->row0[column], y);
-      const int cell = column + 2 * row;
+      const float splitX = toX.split(node->column0);
+      const float splitY0 = toY.split(node->row0[0]), splitY1 = toY.split(node->row0[1]);
+      const bool column = toX.isUpper(splitX);
+      // The choice within both columns does not have to wait for the column.
+      const bool row = bool((int(toY.isUpper(splitY0)) & int(!column)) | (int(toY.isUpper(splitY1)) & int(column)));
+      const int cell = int(column) + 2 * int(row);
+      toX.enter(column, splitX);
+      toY.enter(row, select(column, splitY1, splitY0));
       density *= 4 * node->share(cell);
-      size *= 0.5f;
-      corner += Imath::V2f(float(column), float(row)) * size;
+      ++depth;
+      cellX = 2 * cellX + int(column);
+      cellY = 2 * cellY + int(row);
       if (node->links.isLeaf(cell)) break;
       node = nodes + node->links.childIndex(cell);
     }
   }
+  const float x = toX.rescaled(), y = toY.rescaled();
+  const float size = std::bit_cast<float>((127u - std::uint32_t(depth)) << 23);  // 2^-depth
+  const Imath::V2f corner = Imath::V2f(float(cellX), float(cellY)) * size;
 
   const Imath::V3f wi = squareToSphere(m_map, corner + Imath::V2f(x, y) * size);
   // Close to its cell's border the float direction may belong to the neighbour; the direction is the truth.

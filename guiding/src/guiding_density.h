@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "branchless.h"
 #include "directional_quadtree.h"
 #include "grid_geometry.h"
+#include "guiding/detail/branchless.h"
 #include "guiding/detail/grid.h"
 #include "guiding/distribution.h"
 #include "guiding/settings.h"
@@ -52,10 +52,15 @@ class GuidingDensity {
 
   explicit GuidingDensity(DirectionMap map) : m_map(map), m_geometry(map) {}
 
-  /// Starts to bring a tree's grid near, while the host still evaluates its BSDF.
+  /// Starts to bring a tree's grid and its first nodes near, while the host still evaluates its BSDF.
   void prefetch(std::uint32_t index) const noexcept {
-    const char* bytes = reinterpret_cast<const char*>(&m_trees[index]);
-    for (std::size_t offset = 0; offset < sizeof(Tree); offset += 64) __builtin_prefetch(bytes + offset);
+    constexpr std::size_t kLine = 64, kNodeBytes = 512;
+    const auto fetch = [](const void* begin, std::size_t size) {
+      for (std::size_t offset = 0; offset < size; offset += kLine)
+        __builtin_prefetch(static_cast<const char*>(begin) + offset);
+    };
+    fetch(&m_trees[index], sizeof(Tree));
+    fetch(m_nodes.data() + m_trees[index].firstNode, kNodeBytes);
   }
 
   /// Draws from tree `index`. The density returned is that of the returned float direction.

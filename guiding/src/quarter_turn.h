@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "branchless.h"
+#include "guiding/detail/branchless.h"
 
 // Angles in quarter turns, to about 1e-7: the hot path of the sphere maps spends its time here.
 // Coefficients: Chebyshev interpolation of atan(x)/x, sin(pi/4 x)/x and cos(pi/4 x) in x^2 over [0, 1].

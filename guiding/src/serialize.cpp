@@ -49,14 +49,17 @@ bool getSettings(ByteReader& in, FieldSettings& s) {
 }
 
 void putLinks(ByteWriter& out, const QuadtreeLinks& links) {
-  out.put(links.first);
+  out.put(std::uint32_t(links.first));
   out.put(std::uint8_t(links.mask));
 }
 
 QuadtreeLinks getLinks(ByteReader& in) {
   QuadtreeLinks links;
-  links.first = in.get<std::uint32_t>();
-  links.mask = in.get<std::uint8_t>();
+  const auto first = in.get<std::uint32_t>();
+  const auto mask = in.get<std::uint8_t>();
+  links.first = first & 0xfffffffu;
+  links.mask = mask & 15u;
+  if (links.first != first || links.mask != mask) in.fail();
   return links;
 }
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "guiding/detail/descent.h"
 #include "guiding/settings.h"
 #include "quarter_turn.h"
 
 namespace guiding {
 
-inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
 inline constexpr float kPiF = 3.14159265358979323846f;
 
 /// A point of the unit square as fixed-point numbers: bit 23 - d of a coordinate chooses the half at depth d.

@@ -36,15 +36,15 @@ bool fractionIsSound(const SpatialLeaf& leaf) {
 
 bool gridIsSound(const GuidingDensity::Tree& tree) {
   for (int y = 0; y < Grid::kSize; ++y) {
-    if (tree.grid.upTo[0][y] != 0 || !(tree.grid.rowUpTo[y] >= 0)) return false;
-    if (y > 0 && tree.grid.rowUpTo[y] != tree.grid.rowUpTo[y - 1] + tree.grid.upTo[Grid::kSize][y - 1]) return false;
+    const float before = y > 0 ? tree.grid.rowsUpTo[y - 1] : 0.0f;
+    if (tree.grid.upTo[0][y] != 0 || tree.grid.rowsUpTo[y] != before + tree.grid.upTo[Grid::kSize][y]) return false;
     for (int x = 0; x < Grid::kSize; ++x) {
       const float mass = tree.grid.mass(x, y);
       if (!(mass == 0 || mass >= Grid::kSmallestMass)) return false;
       if (mass == 0 && !tree.isLeafCell(x * Grid::kSize + y)) return false;
     }
   }
-  return tree.grid.rowUpTo[0] == 0 && std::abs(tree.grid.total() - 1) < 4e-6f;
+  return std::abs(tree.grid.total() - 1) < 4e-6f;
 }
 
 bool isProbability(float p) {

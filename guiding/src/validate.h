@@ -17,7 +17,6 @@ bool linksAreSound(const Node* nodes, std::size_t count, std::size_t roots, int 
   std::size_t next = roots;
   for (std::size_t i = 0; i < count; ++i) {
     const QuadtreeLinks links = nodes[i].links;
-    if (links.mask > 15) return false;
     if (links.mask == 0) continue;
     if (links.first != next || depth[i] >= maxDepth) return false;
     for (int c = 0; c < 4; ++c) {

@@ -2,8 +2,9 @@
 
 #include <ImathVec.h>
 
-#include <algorithm>
 #include <array>
+
+#include "guiding/detail/descent.h"
 
 namespace guiding {
 
@@ -17,15 +18,14 @@ struct alignas(32) Grid {
   static constexpr int kDepth = 3;
   static constexpr int kSize = 1 << kDepth;
   static constexpr int kCells = kSize * kSize;
-  static constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
   static constexpr float kSmallestMass = 1e-30f;  ///< of a cell that is not empty
   using Row = std::array<float, kSize>;           ///< one number for each y
 
-  Row rowUpTo;                      ///< mass of all rows before row y
+  Row rowsUpTo;                     ///< mass of rows 0 to y
   std::array<Row, kSize + 1> upTo;  ///< [x][y]: mass of row y's cells before column x; [kSize][y]: of the whole row
 
   float mass(int x, int y) const noexcept { return upTo[x + 1][y] - upTo[x][y]; }
-  float total() const noexcept { return rowUpTo[kSize - 1] + upTo[kSize][kSize - 1]; }
+  float total() const noexcept { return rowsUpTo[kSize - 1]; }
 
   /// Takes masses [x][y] that add up to about 1. Those too small to be divided by count as empty.
   void assign(const std::array<Row, kSize>& masses) noexcept {
@@ -36,27 +36,27 @@ struct alignas(32) Grid {
     sumRows();
   }
 
-  /// Fills rowUpTo from upTo.
+  /// Fills rowsUpTo from upTo.
   void sumRows() noexcept {
-    rowUpTo[0] = 0;
-    for (int y = 1; y < kSize; ++y) rowUpTo[y] = rowUpTo[y - 1] + upTo[kSize][y - 1];
+    float sum = 0;
+    for (int y = 0; y < kSize; ++y) rowsUpTo[y] = sum += upTo[kSize][y];
   }
 
   struct Choice {
-    int x, y;         ///< cell
-    Imath::V2f rest;  ///< u, rescaled to the cell: in [0,1)^2
+    int x, y;              ///< cell
+    Descent restX, restY;  ///< what is left of u to choose within the cell
   };
 
   /// Chooses a cell by its mass, u in [0,1)^2. Empty cells are never chosen.
   Choice sample(const Imath::V2f& u) const noexcept {
-    Choice c{0, 0, {0, 0}};
     const float ty = u.y * total();
-    for (int y = 1; y < kSize; ++y) c.y += ty >= rowUpTo[y];
-    c.rest.y = std::min((ty - rowUpTo[c.y]) / upTo[kSize][c.y], kOneMinusEpsilon);
-    const float tx = u.x * upTo[kSize][c.y];
-    for (int x = 1; x < kSize; ++x) c.x += tx >= upTo[x][c.y];
-    c.rest.x = std::min((tx - upTo[c.x][c.y]) / mass(c.x, c.y), kOneMinusEpsilon);
-    return c;
+    int y = 0;
+    for (const float upToRow : rowsUpTo) y += ty >= upToRow;
+    const float tx = u.x * upTo[kSize][y];
+    int x = 0;
+    for (int i = 1; i < kSize; ++i) x += tx >= upTo[i][y];
+    const float before = select(y > 0, rowsUpTo[(y + kSize - 1) % kSize], 0);
+    return {x, y, {tx - upTo[x][y], mass(x, y)}, {ty - before, upTo[kSize][y]}};
   }
 };
 
