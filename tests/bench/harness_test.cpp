@@ -9,6 +9,7 @@
 #include "catch.h"
 #include "integrators/render.h"
 #include "loaders/load_scene.h"
+#include "openpgl/openpgl_field.h"
 #include "plan/plan.h"
 
 namespace {
@@ -160,6 +161,19 @@ TEST_CASE("a scene that fails is reported and does not stop the rest") {
   CHECK(failures.at(0).at("why") == "there is no reference");
   CHECK(workshop.log().find("FAILED") != std::string::npos);
   CHECK(results.at("scenes").at(1).at("variants").at(0).at("seeds") == 2);
+}
+
+TEST_CASE("a cell that fails is reported with the reason, and the others are measured") {
+  if (pt::hasOpenPgl()) return;  // where it is there, nothing fails
+  Workshop workshop;
+  workshop.plan["variants"].push_back({{"name", "peer"}, {"guiding", "openpgl"}});
+  REQUIRE(workshop.run() == 0);
+  const Json variants = workshop.results().at("scenes").at(0).at("variants");
+  CHECK(variants.at(0).at("seeds") == 2);
+  CHECK(variants.at(2).at("seeds") == 0);
+  REQUIRE(variants.at(2).at("failures").size() == 2);
+  const std::string why = variants.at(2).at("failures").at(0).at("why");
+  CHECK(why.find("built without Open PGL") != std::string::npos);
 }
 
 TEST_CASE("a foreign picture becomes a point of the report") {
