@@ -79,16 +79,26 @@ void learnRadiance(Field::State& state, const SampleRange& samples) {
   });
 }
 
-/// Fractions are learned in the leaf whose guide was mixed in, from samples that had one.
+/// The density that the guide gives a sample, also where the guide rests and was not mixed in.
+float guidePdfOf(const Field::State& state, std::uint32_t leaf, const RadianceSample& s) noexcept {
+  if (s.pdf != s.bsdfPdf) return s.guidePdf;
+  const std::uint32_t tree = state.densityOfLeaf[leaf] & ~GuidingDensity::kResting;
+  return state.density.pdf(tree, state.density.tree(tree).grid, s.direction);
+}
+
+/// Fractions are learned in the leaf whose guide was mixed in, or could have been.
 void learnFraction(Field::State& state, const SampleRange& samples) {
   const auto records = partitionByLeaf<FractionRecord>(
       samples, state.leaves.size(),
       [&](const RadianceSample& s) {
-        const bool wasGuided = s.pdf != s.bsdfPdf;
-        return wasGuided && isUsable(s) ? state.tree.leafAt(s.position) : kNoLeaf;
+        if (!isUsable(s)) return kNoLeaf;
+        const std::uint32_t leaf = state.tree.leafAt(s.position);
+        const std::uint32_t tree = state.densityOfLeaf[leaf];
+        const bool rests = tree != GuidingDensity::kNoGuide && (tree & GuidingDensity::kResting);
+        return s.pdf != s.bsdfPdf || rests ? leaf : kNoLeaf;
       },
-      [](const RadianceSample& s) {
-        return FractionRecord{s.product, s.pdf, s.bsdfPdf, s.guidePdf};
+      [&](const RadianceSample& s) {
+        return FractionRecord{s.product, s.pdf, s.bsdfPdf, guidePdfOf(state, state.tree.leafAt(s.position), s)};
       });
   const FractionLoss loss = state.settings.fractionLoss;
   parallelFor(state.leaves.size(), kLeafGrain, [&](std::size_t leaf) {
@@ -115,7 +125,7 @@ void accumulate(Field::State& state, std::span<const SampleBuffer> buffers) {
   for (std::size_t begin = 0; begin < samples.size(); begin += kBlock) {
     const SampleRange block(samples, begin, std::min(begin + kBlock, samples.size()));
     learnRadiance(state, block);
-    if (state.settings.fractionMode != FractionMode::Fixed && state.hasGuide) learnFraction(state, block);
+    if (state.settings.fractionMode != FractionMode::Fixed && !state.density.trees().empty()) learnFraction(state, block);
     count(state, block);
   }
   for (const SampleBuffer& buffer : buffers) state.droppedSamples += buffer.lost();

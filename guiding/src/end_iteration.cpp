@@ -13,6 +13,7 @@ namespace {
 /// A leaf after an iteration: what is sampled next, and what learns next.
 struct FrozenLeaf {
   FrozenTree tree;
+  bool rests = false;
   SpatialLeaf next;
 };
 
@@ -37,6 +38,7 @@ FrozenLeaf freezeLeaf(SpatialLeaf& leaf, const FieldSettings& settings) {
   // A product is compensated where it is formed, at the shading point.
   const CompensationForm form = settings.product ? CompensationForm::None : settings.compensation.form;
   const float fraction = frozen.next.fraction;
+  frozen.rests = settings.minimalGain > 0 && leaf.slopes.gain(leaf.fraction) < settings.minimalGain;
   if (fraction < 1) frozen.tree = freeze(leaf.building, form, fraction * settings.compensation.strength);
   frozen.tree.tree.bsdfSamplingFraction = fraction;
   frozen.next.building = leaf.building.refined(total, settings.dTreeThreshold, settings.maxDTreeDepth);
@@ -52,6 +54,7 @@ struct NextState {
   std::vector<std::uint32_t> densityOfLeaf;
   std::vector<GuidingDensity::Tree> trees;
   std::vector<GuidingDensity::Node> nodes;
+  bool hasGuide = false;
   bool memoryCapReached = false;
 
   std::size_t memoryBytes() const noexcept {
@@ -73,7 +76,9 @@ void publish(NextState& next, std::vector<FrozenLeaf>& frozen) {
 
   for (FrozenLeaf& leaf : frozen) {
     FrozenTree& from = leaf.tree;
-    next.densityOfLeaf.push_back(from.guided ? std::uint32_t(next.trees.size()) : GuidingDensity::kNoGuide);
+    const std::uint32_t flag = leaf.rests ? GuidingDensity::kResting : 0;
+    next.densityOfLeaf.push_back(from.guided ? std::uint32_t(next.trees.size()) | flag : GuidingDensity::kNoGuide);
+    next.hasGuide |= from.guided && !leaf.rests;
     if (!from.guided) continue;
     from.tree.firstNode = std::uint32_t(next.nodes.size());
     next.trees.push_back(from.tree);
@@ -104,7 +109,7 @@ double bytesOfSplits(const NextState& next, const std::vector<int>& levels) {
     const std::size_t ofDensity =
         tree == GuidingDensity::kNoGuide
             ? 0
-            : sizeof(GuidingDensity::Tree) + next.trees[tree].nodeCount * sizeof(GuidingDensity::Node);
+            : sizeof(GuidingDensity::Tree) + next.trees[tree & ~GuidingDensity::kResting].nodeCount * sizeof(GuidingDensity::Node);
     const double ofEach = double(next.leaves[leaf].memoryBytes() + ofDensity + 3 * sizeof(std::uint32_t));
     bytes += (std::exp2(levels[leaf]) - 1) * ofEach;
   }
@@ -137,7 +142,7 @@ void become(Field::State& state, NextState&& next) noexcept {
   state.leaves = std::move(next.leaves);
   state.densityOfLeaf = std::move(next.densityOfLeaf);
   state.density.assign(std::move(next.trees), std::move(next.nodes));
-  state.hasGuide = !state.density.trees().empty();
+  state.hasGuide = next.hasGuide;
   state.memoryCapReached |= next.memoryCapReached;
   ++state.iterations;
 }

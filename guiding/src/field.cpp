@@ -62,7 +62,7 @@ GuidingDistribution Field::bind(const Imath::V3f& position, const LobeSet& lobes
   GuidingDistribution guide;
   const GuidingDensity& density = m_state->density;
   const std::uint32_t index = m_state->densityOfLeaf[m_state->tree.leafAt(position)];
-  if (index == GuidingDensity::kNoGuide) return guide;
+  if (index >= GuidingDensity::kResting) return guide;
   density.prefetch(index);
   const GuidingDensity::Tree& tree = density.tree(index);
 
@@ -112,7 +112,8 @@ FieldStats Field::stats() const noexcept {
   stats.memoryBytes = s.memoryBytes();
   stats.memoryCapReached = s.memoryCapReached;
   for (const std::uint32_t tree : s.densityOfLeaf) {
-    if (tree == GuidingDensity::kNoGuide) continue;
+    stats.restingLeaves += tree != GuidingDensity::kNoGuide && (tree & GuidingDensity::kResting);
+    if (tree >= GuidingDensity::kResting) continue;
     const int depth = s.density.maxDepth(tree);
     ++stats.guidedLeaves;
     stats.maxQuadtreeDepth = std::max(stats.maxQuadtreeDepth, depth);

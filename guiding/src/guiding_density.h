@@ -20,6 +20,8 @@ namespace guiding {
 class GuidingDensity {
  public:
   static constexpr std::uint32_t kNoGuide = ~0u;
+  /// Flag of a tree's index in a leaf that does not offer it, because sampling the BSDF alone does as well.
+  static constexpr std::uint32_t kResting = 1u << 31;
 
   /// Four cells, by conditional probabilities. A density is what these floats say: sample() and pdf() read the same
   /// ones, and the shares of siblings add up to 1 by construction.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "eight.h"
 
@@ -11,7 +12,6 @@ namespace guiding {
 namespace {
 
 constexpr double kMaxLogit = 2.944438979166440;  // of kMaxFraction; beyond it float fractions stop moving
-constexpr std::uint64_t kFewestSamples = 32;
 
 double sigmoid(double x) noexcept {
   return 1 / (1 + std::exp(-x));
@@ -60,27 +60,52 @@ void FractionSlopes::learn(std::span<const FractionRecord> records, FractionLoss
   Double8 sum{};
   for (const FractionRecord& r : records) {
     if (!(r.product > 0) || !(r.bsdfPdf > 0 || r.guidePdf > 0)) continue;
-    ++count;
     const Float8 mixture = alpha * r.bsdfPdf + (1 - alpha) * r.guidePdf;
     const Float8 ratio = (r.bsdfPdf - r.guidePdf) / mixture;  // bounded by the fractions
     // Weights may leave the range of float: fractions do not depend on the scale of radiance.
-    Double8 term = __builtin_convertvector(ratio, Double8) * (double(r.product) / r.pdf);
-    if (loss == FractionLoss::Variance) term *= double(r.product) / __builtin_convertvector(mixture, Double8);
+    double w = double(r.product) / r.pdf;
+    Double8 term = __builtin_convertvector(ratio, Double8) * w;
+    if (loss == FractionLoss::Variance) {
+      term *= double(r.product) / __builtin_convertvector(mixture, Double8);
+      w *= w;
+    }
     sum -= term;
+    weight += w;
+    squaredWeight += w * w;
   }
   for (int i = 0; i < kNodes; ++i) slope[i] += sum[i];
 }
 
+bool FractionSlopes::slopesWithPrior(float previous, std::array<double, kNodes>& out) const noexcept {
+  const double prior = kPriorSamples * squaredWeight / weight;
+  if (!(weight > 0) || !std::isfinite(prior) || !std::isfinite(slope.front()) || !std::isfinite(slope.back()))
+    return false;
+  // The Kullback-Leibler loss of samples that fall on BSDF and guide as `previous` would have them.
+  for (int i = 0; i < kNodes; ++i)
+    out[i] = slope[i] - prior * (previous / kFractions[i] - (1 - previous) / (1 - kFractions[i]));
+  return true;
+}
+
 float FractionSlopes::fraction(float previous) const noexcept {
-  if (count < kFewestSamples || !std::isfinite(slope.front()) || !std::isfinite(slope.back())) return previous;
-  if (!(slope.front() < slope.back())) return previous;  // the densities are the same: any fraction will do
-  if (slope.front() >= 0) return kMinFraction;
+  std::array<double, kNodes> s;
+  if (!slopesWithPrior(previous, s)) return previous;
+  if (s.front() >= 0) return kMinFraction;
   for (int i = 1; i < kNodes; ++i) {
-    if (!(slope[i] >= 0)) continue;
-    const double share = slope[i - 1] / (slope[i - 1] - slope[i]);
+    if (!(s[i] >= 0)) continue;
+    const double share = s[i - 1] / (s[i - 1] - s[i]);
     return float(kFractions[i - 1] + share * (kFractions[i] - kFractions[i - 1]));
   }
   return kMaxFraction;
+}
+
+double FractionSlopes::gain(float previous) const noexcept {
+  std::array<double, kNodes> s;
+  if (!slopesWithPrior(previous, s)) return std::numeric_limits<double>::infinity();
+  // The slope rises from the minimum on; its integral by trapezoids, and beyond the last node by a rectangle.
+  double integral = std::max(0.0, s.back()) * (1 - kFractions.back());
+  for (int i = 1; i < kNodes; ++i)
+    integral += 0.5 * (std::max(0.0, s[i - 1]) + std::max(0.0, s[i])) * (kFractions[i] - kFractions[i - 1]);
+  return integral / (weight + kPriorSamples * squaredWeight / weight);
 }
 
 }  // namespace guiding

@@ -1,5 +1,7 @@
 #include "serialize.h"
 
+#include <algorithm>
+
 #include "byte_stream.h"
 #include "validate.h"
 
@@ -18,6 +20,7 @@ void putSettings(ByteWriter& out, const FieldSettings& s) {
   out.put(s.bsdfSamplingFraction);
   out.put(std::uint32_t(s.fractionMode));
   out.put(std::uint32_t(s.fractionLoss));
+  out.put(s.minimalGain);
   out.put(std::uint32_t(s.compensation.form));
   out.put(s.compensation.strength);
   out.put(std::uint8_t(s.product));
@@ -42,6 +45,7 @@ bool getSettings(ByteReader& in, FieldSettings& s) {
   s.bsdfSamplingFraction = in.get<float>();
   ok &= getEnum(in, s.fractionMode, FractionMode::Fit);
   ok &= getEnum(in, s.fractionLoss, FractionLoss::Variance);
+  s.minimalGain = in.get<float>();
   ok &= getEnum(in, s.compensation.form, CompensationForm::ClipRenormalise);
   s.compensation.strength = in.get<float>();
   s.product = in.get<std::uint8_t>() != 0;
@@ -69,7 +73,8 @@ void putFraction(ByteWriter& out, const SpatialLeaf& leaf) {
   out.put(leaf.adam.batchCount);
   out.put(leaf.adam.steps);
   for (const double slope : leaf.slopes.slope) out.put(slope);
-  out.put(leaf.slopes.count);
+  out.put(leaf.slopes.weight);
+  out.put(leaf.slopes.squaredWeight);
 }
 
 void getFraction(ByteReader& in, SpatialLeaf& leaf) {
@@ -78,7 +83,8 @@ void getFraction(ByteReader& in, SpatialLeaf& leaf) {
   leaf.adam.batchCount = in.get<std::uint32_t>();
   leaf.adam.steps = in.get<std::uint32_t>();
   for (double& slope : leaf.slopes.slope) slope = in.get<double>();
-  leaf.slopes.count = in.get<std::uint64_t>();
+  leaf.slopes.weight = in.get<double>();
+  leaf.slopes.squaredWeight = in.get<double>();
 }
 
 void putLeaf(ByteWriter& out, const SpatialLeaf& leaf) {
@@ -93,7 +99,7 @@ void putLeaf(ByteWriter& out, const SpatialLeaf& leaf) {
   }
 }
 
-constexpr std::size_t kLeafBytes = 4 + 8 + 4 + 40 + 72 + 8, kBuildingNodeBytes = 37;
+constexpr std::size_t kLeafBytes = 4 + 8 + 4 + 40 + 80 + 8, kBuildingNodeBytes = 37;
 
 void getLeaf(ByteReader& in, SpatialLeaf& leaf) {
   leaf.sampleCount = in.get<std::uint64_t>();
@@ -205,7 +211,8 @@ std::unique_ptr<Field::State> stateOf(std::span<const std::uint8_t> payload) {
   }
   getDensity(in, state->density);
   if (in.failed() || in.remaining() != 0 || !validateState(*state)) return nullptr;
-  state->hasGuide = !state->density.trees().empty();
+  state->hasGuide = std::any_of(state->densityOfLeaf.begin(), state->densityOfLeaf.end(),
+                                [](std::uint32_t tree) { return tree < GuidingDensity::kResting; });
   return state;
 }
 

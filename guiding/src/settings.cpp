@@ -47,6 +47,9 @@ Status FieldSettings::validate() const {
   if (maxDTreeDepth < 1 || maxDTreeDepth > 20) return outOfRange("maxDTreeDepth must lie in [1, 20]");
   if (!(bsdfSamplingFraction > 0 && bsdfSamplingFraction <= 1))
     return outOfRange("bsdfSamplingFraction must lie in (0, 1]");
+  if (!(minimalGain >= 0)) return outOfRange("minimalGain must not be negative");
+  if (minimalGain > 0 && fractionMode != FractionMode::Fit)
+    return outOfRange("minimalGain needs the fractionMode that fits the loss");
   if (!(compensation.strength >= 0 && compensation.strength <= 1))
     return outOfRange("compensation.strength must lie in [0, 1]");
   return Success{};

@@ -84,8 +84,8 @@ Status validateState(const Field::State& state) {
     const Status building = validateBuilding(state.leaves[leaf], leaf, maxDepth);
     if (!building) return building;
     if (!fractionIsSound(state.leaves[leaf])) return violation("learned fraction of spatial leaf", leaf);
-    const std::uint32_t tree = state.densityOfLeaf[leaf];
-    if (tree != GuidingDensity::kNoGuide && tree >= state.density.trees().size())
+    const std::uint32_t tree = state.densityOfLeaf[leaf] & ~GuidingDensity::kResting;
+    if (state.densityOfLeaf[leaf] != GuidingDensity::kNoGuide && tree >= state.density.trees().size())
       return violation("density of spatial leaf", leaf);
   }
   for (std::size_t tree = 0; tree < state.density.trees().size(); ++tree) {

@@ -84,6 +84,7 @@ nlohmann::ordered_json toJson(const guiding::FieldStats& stats) {
           {"outsideSamples", stats.outsideSamples},
           {"spatialLeaves", stats.spatialLeaves},
           {"guidedLeaves", stats.guidedLeaves},
+          {"restingLeaves", stats.restingLeaves},
           {"maxSpatialDepth", stats.maxSpatialDepth},
           {"quadtreeNodes", stats.quadtreeNodes},
           {"maxQuadtreeDepth", stats.maxQuadtreeDepth},

@@ -41,6 +41,7 @@ void visitMembers(Is<guiding::FieldSettings> auto& s, auto&& visitor) {
   visitor("bsdfSamplingFraction", s.bsdfSamplingFraction);
   visitor("fractionMode", s.fractionMode);
   visitor("fractionLoss", s.fractionLoss);
+  visitor("minimalGain", s.minimalGain);
   visitor("compensation", s.compensation);
   visitor("product", s.product);
 }

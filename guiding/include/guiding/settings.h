@@ -78,6 +78,11 @@ struct FieldSettings {
   FractionMode fractionMode = FractionMode::Fixed;
   FractionLoss fractionLoss = FractionLoss::KullbackLeibler;
 
+  /// A spatial leaf offers no guide as long as the loss that its fraction minimises falls by less than this against
+  /// sampling the BSDF alone: nats, or a share of the second moment for FractionLoss::Variance. Needs
+  /// FractionMode::Fit. Range: >= 0; 0: every leaf that learned something offers its guide.
+  float minimalGain = 0;
+
   CompensationSettings compensation;
 
   /// Multiply the learned radiance with the host's lobes at each shading point (see Field::bind). Compensation then

@@ -14,7 +14,8 @@ struct FieldStats {
   std::uint64_t droppedSamples = 0;
   std::uint64_t outsideSamples = 0;  ///< positions outside the cube over the bounds; learned in the nearest leaf
   std::size_t spatialLeaves = 0;
-  std::size_t guidedLeaves = 0;  ///< leaves whose frozen density can be sampled
+  std::size_t guidedLeaves = 0;   ///< leaves whose frozen density can be sampled
+  std::size_t restingLeaves = 0;  ///< leaves that learned a density but offer none (FieldSettings::minimalGain)
   int maxSpatialDepth = 0;
   std::size_t quadtreeNodes = 0;  ///< of the frozen density
   int maxQuadtreeDepth = 0;
