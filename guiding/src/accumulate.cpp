@@ -71,10 +71,11 @@ void learnRadiance(Field::State& state, const SampleRange& samples) {
     target.sampleCount += splats.ofLeaf(leaf).size();
     for (const Splat& splat : splats.ofLeaf(leaf)) {
       if (!(splat.value > 0)) continue;
+      const double value = target.largestRecord > 0 ? std::min(splat.value, target.largestRecord) : splat.value;
       if (box)
-        splatBox(target.building, map, splat.point, splat.value);
+        splatBox(target.building, map, splat.point, value);
       else
-        target.building.splat(splat.point, splat.value);
+        target.building.splat(splat.point, value);
     }
   });
 }
@@ -125,7 +126,8 @@ void accumulate(Field::State& state, std::span<const SampleBuffer> buffers) {
   for (std::size_t begin = 0; begin < samples.size(); begin += kBlock) {
     const SampleRange block(samples, begin, std::min(begin + kBlock, samples.size()));
     learnRadiance(state, block);
-    if (state.settings.fractionMode != FractionMode::Fixed && !state.density.trees().empty()) learnFraction(state, block);
+    if (state.settings.fractionMode != FractionMode::Fixed && !state.density.trees().empty())
+      learnFraction(state, block);
     count(state, block);
   }
   for (const SampleBuffer& buffer : buffers) state.droppedSamples += buffer.lost();

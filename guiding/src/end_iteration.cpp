@@ -17,11 +17,14 @@ struct FrozenLeaf {
   SpatialLeaf next;
 };
 
-void learnFraction(const SpatialLeaf& leaf, FractionMode mode, SpatialLeaf& next) {
+void learnFraction(const SpatialLeaf& leaf, const FieldSettings& settings, SpatialLeaf& next) {
+  const FractionMode mode = settings.fractionMode;
   next.fraction = leaf.fraction;
   next.adam = leaf.adam;
+  next.slopes = leaf.slopes;
+  next.slopes.scale(FractionSlopes::kRetention);
   if (mode == FractionMode::Adam && leaf.adam.steps > 0) next.fraction = leaf.adam.fraction();
-  if (mode == FractionMode::Fit) next.fraction = leaf.slopes.fraction(leaf.fraction);
+  if (mode == FractionMode::Fit) next.fraction = leaf.slopes.fraction(settings.bsdfSamplingFraction);
 }
 
 /// The density of a leaf and the quadtree it learns into next. A leaf that learned nothing keeps its topology and
@@ -29,7 +32,7 @@ void learnFraction(const SpatialLeaf& leaf, FractionMode mode, SpatialLeaf& next
 FrozenLeaf freezeLeaf(SpatialLeaf& leaf, const FieldSettings& settings) {
   const double total = leaf.building.build();
   FrozenLeaf frozen;
-  learnFraction(leaf, settings.fractionMode, frozen.next);
+  learnFraction(leaf, settings, frozen.next);
   if (!(total > 0) || !std::isfinite(total)) {
     frozen.next.building = leaf.building;
     for (auto& node : frozen.next.building.nodes()) node.sum = {};
@@ -38,10 +41,11 @@ FrozenLeaf freezeLeaf(SpatialLeaf& leaf, const FieldSettings& settings) {
   // A product is compensated where it is formed, at the shading point.
   const CompensationForm form = settings.product ? CompensationForm::None : settings.compensation.form;
   const float fraction = frozen.next.fraction;
-  frozen.rests = settings.minimalGain > 0 && leaf.slopes.gain(leaf.fraction) < settings.minimalGain;
+  frozen.rests = settings.minimalGain > 0 && leaf.slopes.gain(settings.bsdfSamplingFraction) < settings.minimalGain;
   if (fraction < 1) frozen.tree = freeze(leaf.building, form, fraction * settings.compensation.strength);
   frozen.tree.tree.bsdfSamplingFraction = fraction;
   frozen.next.building = leaf.building.refined(total, settings.dTreeThreshold, settings.maxDTreeDepth);
+  frozen.next.largestRecord = settings.recordClip * total;
   return frozen;
 }
 
@@ -109,7 +113,8 @@ double bytesOfSplits(const NextState& next, const std::vector<int>& levels) {
     const std::size_t ofDensity =
         tree == GuidingDensity::kNoGuide
             ? 0
-            : sizeof(GuidingDensity::Tree) + next.trees[tree & ~GuidingDensity::kResting].nodeCount * sizeof(GuidingDensity::Node);
+            : sizeof(GuidingDensity::Tree) +
+                  next.trees[tree & ~GuidingDensity::kResting].nodeCount * sizeof(GuidingDensity::Node);
     const double ofEach = double(next.leaves[leaf].memoryBytes() + ofDensity + 3 * sizeof(std::uint32_t));
     bytes += (std::exp2(levels[leaf]) - 1) * ofEach;
   }
@@ -135,6 +140,9 @@ void splitLeaves(NextState& next, const std::vector<int>& levels) {
     next.leaves[leaf] = next.leaves[origin[leaf]];
     next.densityOfLeaf[leaf] = next.densityOfLeaf[origin[leaf]];
   }
+  // What the origin knew of its fraction speaks for each part of it only as much as that part is of the whole.
+  for (std::size_t leaf = 0; leaf < origin.size(); ++leaf)
+    next.leaves[leaf].slopes.scale(std::exp2(-levels[origin[leaf]]));
 }
 
 void become(Field::State& state, NextState&& next) noexcept {

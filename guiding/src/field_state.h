@@ -16,6 +16,7 @@ namespace guiding {
 struct SpatialLeaf {
   DirectionalQuadtree building;   ///< learns during this iteration
   std::uint64_t sampleCount = 0;  ///< of this iteration
+  double largestRecord = 0;       ///< radiance / pdf above this is learned as this; 0: no limit
   float fraction = 0.5f;          ///< bsdfSamplingFraction of the frozen density
   AdamFraction adam;              ///< with FractionMode::Adam
   FractionSlopes slopes;          ///< with FractionMode::Fit; of this iteration

@@ -55,9 +55,15 @@ float AdamFraction::fraction() const noexcept {
   return float(std::clamp(sigmoid(logit), double(kMinFraction), double(kMaxFraction)));
 }
 
+void FractionSlopes::scale(double share) noexcept {
+  for (double& s : slope) s *= share;
+  weight *= share;
+  squaredWeight *= share;
+}
+
 void FractionSlopes::learn(std::span<const FractionRecord> records, FractionLoss loss) noexcept {
   const Float8 alpha = std::bit_cast<Float8>(kFractions);
-  Double8 sum{};
+  Double8 sum = std::bit_cast<Double8>(slope);  // added to one by one: the same bits in one call and in many
   for (const FractionRecord& r : records) {
     if (!(r.product > 0) || !(r.bsdfPdf > 0 || r.guidePdf > 0)) continue;
     const Float8 mixture = alpha * r.bsdfPdf + (1 - alpha) * r.guidePdf;
@@ -73,22 +79,22 @@ void FractionSlopes::learn(std::span<const FractionRecord> records, FractionLoss
     weight += w;
     squaredWeight += w * w;
   }
-  for (int i = 0; i < kNodes; ++i) slope[i] += sum[i];
+  slope = std::bit_cast<std::array<double, kNodes>>(sum);
 }
 
-bool FractionSlopes::slopesWithPrior(float previous, std::array<double, kNodes>& out) const noexcept {
+bool FractionSlopes::slopesWithPrior(float initial, std::array<double, kNodes>& out) const noexcept {
   const double prior = kPriorSamples * squaredWeight / weight;
   if (!(weight > 0) || !std::isfinite(prior) || !std::isfinite(slope.front()) || !std::isfinite(slope.back()))
     return false;
-  // The Kullback-Leibler loss of samples that fall on BSDF and guide as `previous` would have them.
+  // The Kullback-Leibler loss of samples that fall on BSDF and guide as `initial` would have them.
   for (int i = 0; i < kNodes; ++i)
-    out[i] = slope[i] - prior * (previous / kFractions[i] - (1 - previous) / (1 - kFractions[i]));
+    out[i] = slope[i] - prior * (initial / kFractions[i] - (1 - initial) / (1 - kFractions[i]));
   return true;
 }
 
-float FractionSlopes::fraction(float previous) const noexcept {
+float FractionSlopes::fraction(float initial) const noexcept {
   std::array<double, kNodes> s;
-  if (!slopesWithPrior(previous, s)) return previous;
+  if (!slopesWithPrior(initial, s)) return initial;
   if (s.front() >= 0) return kMinFraction;
   for (int i = 1; i < kNodes; ++i) {
     if (!(s[i] >= 0)) continue;
@@ -98,9 +104,9 @@ float FractionSlopes::fraction(float previous) const noexcept {
   return kMaxFraction;
 }
 
-double FractionSlopes::gain(float previous) const noexcept {
+double FractionSlopes::gain(float initial) const noexcept {
   std::array<double, kNodes> s;
-  if (!slopesWithPrior(previous, s)) return std::numeric_limits<double>::infinity();
+  if (!slopesWithPrior(initial, s)) return std::numeric_limits<double>::infinity();
   // The slope rises from the minimum on; its integral by trapezoids, and beyond the last node by a rectangle.
   double integral = std::max(0.0, s.back()) * (1 - kFractions.back());
   for (int i = 1; i < kNodes; ++i)

@@ -16,6 +16,8 @@ Status ScheduleSettings::validate() const {
     return Error{ErrorCode::InvalidArgument, "sppPerPass must lie in [1, 1048576]"};
   if (int(combination) < 0 || combination > SampleCombination::InverseVariance)
     return Error{ErrorCode::InvalidArgument, "combination is not one of its values"};
+  if (!(trainingShare > 0 && trainingShare <= 1))
+    return Error{ErrorCode::InvalidArgument, "trainingShare must lie in (0, 1]"};
   if (combinedIterations < 1) return Error{ErrorCode::InvalidArgument, "combinedIterations must be at least 1"};
   return Success{};
 }
@@ -47,7 +49,9 @@ IterationPlan TrainingSchedule::next() const {
 
   plan.keepsDensity = m_settings.combination == SampleCombination::Automatic && trainingShouldEnd();
   // An iteration that would leave less than twice itself takes the rest: no tiny last iteration.
-  plan.isFinal = plan.keepsDensity || remaining - expectedCost < 2 * expectedCost;
+  const double budget = m_sppBudget > 0 ? double(m_sppBudget) : m_secondsBudget;
+  const bool isTrained = budget - remaining + expectedCost > m_settings.trainingShare * budget;
+  plan.isFinal = plan.keepsDensity || isTrained || remaining - expectedCost < 2 * expectedCost;
   if (plan.isFinal) plan.spp = m_sppBudget > 0 ? std::int64_t(remaining) : kUntilTimeIsOver;
   return plan;
 }

@@ -20,6 +20,7 @@ void putSettings(ByteWriter& out, const FieldSettings& s) {
   out.put(s.bsdfSamplingFraction);
   out.put(std::uint32_t(s.fractionMode));
   out.put(std::uint32_t(s.fractionLoss));
+  out.put(s.recordClip);
   out.put(s.minimalGain);
   out.put(std::uint32_t(s.compensation.form));
   out.put(s.compensation.strength);
@@ -45,6 +46,7 @@ bool getSettings(ByteReader& in, FieldSettings& s) {
   s.bsdfSamplingFraction = in.get<float>();
   ok &= getEnum(in, s.fractionMode, FractionMode::Fit);
   ok &= getEnum(in, s.fractionLoss, FractionLoss::Variance);
+  s.recordClip = in.get<float>();
   s.minimalGain = in.get<float>();
   ok &= getEnum(in, s.compensation.form, CompensationForm::ClipRenormalise);
   s.compensation.strength = in.get<float>();
@@ -89,6 +91,7 @@ void getFraction(ByteReader& in, SpatialLeaf& leaf) {
 
 void putLeaf(ByteWriter& out, const SpatialLeaf& leaf) {
   out.put(leaf.sampleCount);
+  out.put(leaf.largestRecord);
   out.put(leaf.fraction);
   putFraction(out, leaf);
   out.put(std::uint64_t(leaf.building.nodes().size()));
@@ -99,10 +102,11 @@ void putLeaf(ByteWriter& out, const SpatialLeaf& leaf) {
   }
 }
 
-constexpr std::size_t kLeafBytes = 4 + 8 + 4 + 40 + 80 + 8, kBuildingNodeBytes = 37;
+constexpr std::size_t kLeafBytes = 4 + 8 + 8 + 4 + 40 + 80 + 8, kBuildingNodeBytes = 37;
 
 void getLeaf(ByteReader& in, SpatialLeaf& leaf) {
   leaf.sampleCount = in.get<std::uint64_t>();
+  leaf.largestRecord = in.get<double>();
   leaf.fraction = in.get<float>();
   getFraction(in, leaf);
   auto& nodes = leaf.building.nodes();

@@ -27,6 +27,8 @@ FieldSettings FieldSettings::recommended() {
   s.directionMap = DirectionMap::Octahedral;
   s.fractionMode = FractionMode::Fit;
   s.product = true;
+  s.recordClip = 0.01f;
+  s.minimalGain = 0.02f;
   s.compensation = {CompensationForm::WaterFilling, 0.5f};
   return s;
 }
@@ -47,6 +49,7 @@ Status FieldSettings::validate() const {
   if (maxDTreeDepth < 1 || maxDTreeDepth > 20) return outOfRange("maxDTreeDepth must lie in [1, 20]");
   if (!(bsdfSamplingFraction > 0 && bsdfSamplingFraction <= 1))
     return outOfRange("bsdfSamplingFraction must lie in (0, 1]");
+  if (!(recordClip >= 0)) return outOfRange("recordClip must not be negative");
   if (!(minimalGain >= 0)) return outOfRange("minimalGain must not be negative");
   if (minimalGain > 0 && fractionMode != FractionMode::Fit)
     return outOfRange("minimalGain needs the fractionMode that fits the loss");

@@ -19,6 +19,7 @@ Status validateBuilding(const SpatialLeaf& leaf, std::size_t index, int maxDepth
   for (const auto& node : nodes)
     for (const double sum : node.sum)
       if (!(sum >= 0) || !std::isfinite(sum)) return violation("flux of a quadtree cell of spatial leaf", index);
+  if (!(leaf.largestRecord >= 0)) return violation("largest record of spatial leaf", index);
   if (!(leaf.fraction > 0 && leaf.fraction <= 1)) return violation("fraction of spatial leaf", index);
   if (!std::isfinite(leaf.adam.logit) || !std::isfinite(leaf.adam.firstMoment) || !(leaf.adam.secondMoment >= 0))
     return violation("fraction optimiser of spatial leaf", index);
@@ -31,6 +32,7 @@ bool fractionIsSound(const SpatialLeaf& leaf) {
     if (!std::isfinite(x)) return false;
   for (const double slope : leaf.slopes.slope)
     if (!std::isfinite(slope)) return false;
+  if (!(leaf.slopes.weight >= 0 && leaf.slopes.squaredWeight >= 0)) return false;
   return leaf.fraction > 0 && leaf.fraction <= 1 && adam.secondMoment >= 0;
 }
 

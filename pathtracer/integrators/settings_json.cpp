@@ -42,6 +42,7 @@ void visitMembers(Is<guiding::FieldSettings> auto& s, auto&& visitor) {
   visitor("fractionMode", s.fractionMode);
   visitor("fractionLoss", s.fractionLoss);
   visitor("minimalGain", s.minimalGain);
+  visitor("recordClip", s.recordClip);
   visitor("compensation", s.compensation);
   visitor("product", s.product);
 }
@@ -50,6 +51,7 @@ void visitMembers(Is<guiding::ScheduleSettings> auto& s, auto&& visitor) {
   visitor("sppPerPass", s.sppPerPass);
   visitor("combination", s.combination);
   visitor("combinedIterations", s.combinedIterations);
+  visitor("trainingShare", s.trainingShare);
 }
 
 void visitMembers(Is<OpenPglSettings> auto& s, auto&& visitor) {

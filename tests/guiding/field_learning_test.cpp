@@ -234,13 +234,64 @@ TEST_CASE("A learned fraction starts where the settings say") {
       settings.bsdfSamplingFraction = start;
       Field field = makeField(settings);
       for (int iteration = 0; iteration < 2; ++iteration) {  // of the second, few samples tell anything
-        REQUIRE(field.accumulate(evenly(20)));
+        REQUIRE(field.accumulate(evenly(2)));
         REQUIRE(field.endIteration(4));
       }
       const float expected = mode == FractionMode::Fixed ? start : std::min(start, 0.95f);
       CAPTURE(int(mode), start);
       CHECK(field.bind(Imath::V3f(0.5f)).bsdfSamplingFraction() == Approx(expected).margin(0.03));
     }
+}
+
+TEST_CASE("Where the BSDF does as well, the guide rests, and returns when it is needed") {
+  const Radiance everywhere = [](const Imath::V3f&, const Imath::V3f&) { return 1.0f; };
+  for (const bool product : {false, true}) {
+    FieldSettings settings = FieldSettings::recommended();
+    settings.product = product;
+    settings.minimalGain = 0;
+    CHECK(train(settings, everywhere, 4, 20'000).hasGuide());
+
+    settings.minimalGain = 0.02f;
+    Field field = train(settings, everywhere, 4, 20'000);
+    CHECK(!field.hasGuide());
+    CHECK(!field.bind(Imath::V3f(0.3f)));
+    CHECK(field.bind(Imath::V3f(0.3f)).bsdfSamplingFraction() == 1);
+    CHECK(field.stats().restingLeaves == field.stats().spatialLeaves);
+    CHECK(field.stats().guidedLeaves == 0);
+
+    Random random(9);
+    for (int i = 0; i < 3; ++i) {
+      REQUIRE(field.accumulate(record(field, coneRadiance, 160'000, random)));
+      REQUIRE(field.endIteration(32));
+    }
+    CHECK(field.hasGuide());
+    CHECK(field.stats().restingLeaves == 0);
+    CHECK(field.bind(Imath::V3f(0.3f)).pdf(kLight.axis) > 5 * kUniformPdf);
+  }
+}
+
+TEST_CASE("No single sample draws the guide to itself") {
+  const auto densityAtOutlier = [](float recordClip) {
+    FieldSettings settings = FieldSettings::production2019();
+    settings.recordClip = recordClip;
+    Field field = train(settings, coneRadiance, 2, 20'000);
+    Random random(10);
+    SampleBuffer buffer = record(field, coneRadiance, 80'000, random);
+    RadianceSample outlier = good();
+    outlier.direction = -kLight.axis;
+    outlier.radiance = outlier.product = 1e20f;
+    buffer.add(outlier);
+    REQUIRE(field.accumulate(buffer));
+    REQUIRE(field.endIteration(16));
+    const GuidingDistribution guide = field.bind(outlier.position);
+    return std::pair{guide.pdf(outlier.direction), guide.pdf(kLight.axis)};
+  };
+  const auto [lost, nothing] = densityAtOutlier(0);
+  CHECK(lost > kUniformPdf);
+  CHECK(nothing < 1e-6f);
+  const auto [outlier, cone] = densityAtOutlier(0.01f);
+  CHECK(outlier < 0.1f * cone);
+  CHECK(cone > 5 * kUniformPdf);
 }
 
 TEST_CASE("A fraction of one leaves nothing for a guide to do") {

@@ -128,7 +128,8 @@ TEST_CASE("The gain over the BSDF alone is what theory says, and nothing where t
     const auto gain = [&](FractionLoss loss) { return world.loss(1, loss) - world.loss(world.best(loss), loss); };
     CAPTURE(world.b, world.q);
     CHECK(kl.gain(0.5f) == Approx(gain(FractionLoss::KullbackLeibler) / f).margin(0.05));
-    CHECK(variance.gain(0.5f) == Approx(gain(FractionLoss::Variance) / world.loss(0.5, FractionLoss::Variance)).epsilon(0.1).margin(0.05));
+    CHECK(variance.gain(0.5f) ==
+          Approx(gain(FractionLoss::Variance) / world.loss(0.5, FractionLoss::Variance)).epsilon(0.1).margin(0.05));
   }
   FractionSlopes same;
   same.learn(std::vector<FractionRecord>(100'000, {1, 1, 0.5f, 0.5f}), FractionLoss::KullbackLeibler);

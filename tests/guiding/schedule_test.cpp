@@ -191,6 +191,26 @@ TEST_CASE("Weights sum to one whatever was reported") {
   }
 }
 
+TEST_CASE("Training keeps to its share of the budget, and the whole budget is spent") {
+  for (const float share : {0.01f, 0.1f, 0.25f, 0.4f, 1.0f})
+    for (const std::int64_t budget : {1, 4, 5, 64, 127, 1000, 4096}) {
+      ScheduleSettings s{1, SampleCombination::InverseVariance, 4, share};
+      TrainingSchedule schedule(s, budget, 0);
+      std::int64_t training = 0, last = 0, total = 0;
+      for (IterationPlan plan = schedule.next(); plan.spp > 0; plan = schedule.next()) {
+        if (!plan.isFinal) training += last = plan.spp;
+        total += plan.spp;
+        schedule.report(plan, {plan.spp, 1, 1});
+      }
+      CAPTURE(share, budget, training);
+      CHECK(total == budget);
+      CHECK(double(training) <= share * double(budget));
+      // One iteration more would have been too much, by the share or by the doubling.
+      const double more = training + std::max<double>(1, 2.0 * double(last));
+      CHECK((more > share * double(budget) || more > 0.5 * double(budget)));
+    }
+}
+
 TEST_CASE("A time budget is spent, training counted in") {
   for (const auto combination :
        {SampleCombination::Discard, SampleCombination::Automatic, SampleCombination::InverseVariance})
@@ -231,6 +251,12 @@ TEST_CASE("Schedule settings out of range are refused by name") {
   s.combinedIterations = 0;
   REQUIRE(!s.validate());
   CHECK_THAT(s.validate().error().text, Catch::Contains("combinedIterations"));
+  for (const float bad : {0.0f, -0.5f, 1.01f, std::numeric_limits<float>::quiet_NaN()}) {
+    s = {};
+    s.trainingShare = bad;
+    REQUIRE(!s.validate());
+    CHECK_THAT(s.validate().error().text, Catch::Contains("trainingShare"));
+  }
   s = {};
   s.combination = SampleCombination(7);
   CHECK(!s.validate());

@@ -21,10 +21,13 @@ struct ScheduleSettings {
   int sppPerPass = 4;  ///< range: [1, 2^20]
   SampleCombination combination = SampleCombination::Automatic;
   int combinedIterations = 4;  ///< how many of the last iterations InverseVariance combines; >= 1
+  /// Training ends before the iteration with which it would exceed this share of the budget. Range: (0, 1]; at 1/2 and
+  /// above the doubling alone decides: an iteration that would leave less than twice itself is the last.
+  float trainingShare = 1;
 
   static ScheduleSettings mueller2017() { return {}; }
-  static ScheduleSettings production2019() { return {1, SampleCombination::InverseVariance, 4}; }
-  static ScheduleSettings recommended() { return production2019(); }
+  static ScheduleSettings production2019() { return {1, SampleCombination::InverseVariance, 4, 1}; }
+  static ScheduleSettings recommended() { return {1, SampleCombination::InverseVariance, 4, 0.25f}; }
   Status validate() const;
 };
 

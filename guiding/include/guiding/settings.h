@@ -83,6 +83,11 @@ struct FieldSettings {
   /// FractionMode::Fit. Range: >= 0; 0: every leaf that learned something offers its guide.
   float minimalGain = 0;
 
+  /// A sample is learned with at most this share of all that its spatial leaf learned in the iteration before, so that
+  /// a single outlier cannot draw the guide to itself. Only the guide changes by it, never the mean of the picture.
+  /// Range: >= 0; 0: no limit.
+  float recordClip = 0;
+
   CompensationSettings compensation;
 
   /// Multiply the learned radiance with the host's lobes at each shading point (see Field::bind). Compensation then
