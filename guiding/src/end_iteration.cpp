@@ -24,7 +24,7 @@ void learnFraction(const SpatialLeaf& leaf, const FieldSettings& settings, Spati
   next.slopes = leaf.slopes;
   next.slopes.scale(FractionSlopes::kRetention);
   if (mode == FractionMode::Adam && leaf.adam.steps > 0) next.fraction = leaf.adam.fraction();
-  if (mode == FractionMode::Fit) next.fraction = leaf.slopes.fraction(settings.bsdfSamplingFraction);
+  if (mode == FractionMode::Fit) next.fraction = leaf.slopes.fraction(initialFraction(settings));
 }
 
 /// The density of a leaf and the quadtree it learns into next. A leaf that learned nothing keeps its topology and
@@ -41,7 +41,7 @@ FrozenLeaf freezeLeaf(SpatialLeaf& leaf, const FieldSettings& settings) {
   // A product is compensated where it is formed, at the shading point.
   const CompensationForm form = settings.product ? CompensationForm::None : settings.compensation.form;
   const float fraction = frozen.next.fraction;
-  frozen.rests = settings.minimalGain > 0 && leaf.slopes.gain(settings.bsdfSamplingFraction) < settings.minimalGain;
+  frozen.rests = settings.minimalGain > 0 && leaf.slopes.gain(initialFraction(settings)) < settings.minimalGain;
   if (fraction < 1) frozen.tree = freeze(leaf.building, form, fraction * settings.compensation.strength);
   frozen.tree.tree.bsdfSamplingFraction = fraction;
   frozen.next.building = leaf.building.refined(total, settings.dTreeThreshold, settings.maxDTreeDepth);

@@ -12,6 +12,12 @@
 
 namespace guiding {
 
+/// What learning starts from: a guide that is never sampled teaches nothing.
+inline float initialFraction(const FieldSettings& settings) noexcept {
+  if (settings.fractionMode == FractionMode::Fixed) return settings.bsdfSamplingFraction;
+  return std::clamp(settings.bsdfSamplingFraction, kMinFraction, kMaxFraction);
+}
+
 /// One leaf of the spatial tree.
 struct SpatialLeaf {
   DirectionalQuadtree building;   ///< learns during this iteration
@@ -22,10 +28,8 @@ struct SpatialLeaf {
   FractionSlopes slopes;          ///< with FractionMode::Fit; of this iteration
 
   void startAt(const FieldSettings& settings) noexcept {
-    fraction = settings.bsdfSamplingFraction;
-    if (settings.fractionMode == FractionMode::Fixed) return;
-    fraction = std::clamp(fraction, kMinFraction, kMaxFraction);  // a guide that is never sampled teaches nothing
-    adam.startAt(fraction);
+    fraction = initialFraction(settings);
+    if (settings.fractionMode != FractionMode::Fixed) adam.startAt(fraction);
   }
   std::size_t memoryBytes() const noexcept { return sizeof(*this) + building.memoryBytes(); }
 };

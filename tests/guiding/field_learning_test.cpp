@@ -273,6 +273,7 @@ TEST_CASE("Where the BSDF does as well, the guide rests, and returns when it is 
 TEST_CASE("No single sample draws the guide to itself") {
   const auto densityAtOutlier = [](float recordClip) {
     FieldSettings settings = FieldSettings::production2019();
+    settings.spatialFilter = SpatialFilter::Nearest;
     settings.recordClip = recordClip;
     Field field = train(settings, coneRadiance, 2, 20'000);
     Random random(10);
