@@ -41,7 +41,8 @@ FrozenLeaf freezeLeaf(SpatialLeaf& leaf, const FieldSettings& settings) {
   // A product is compensated where it is formed, at the shading point.
   const CompensationForm form = settings.product ? CompensationForm::None : settings.compensation.form;
   const float fraction = frozen.next.fraction;
-  frozen.rests = settings.minimalGain > 0 && leaf.slopes.gain(initialFraction(settings)) < settings.minimalGain;
+  frozen.rests = settings.fractionMode == FractionMode::Fit && settings.minimalGain > 0 &&
+                 leaf.slopes.gain(initialFraction(settings)) < settings.minimalGain;
   if (fraction < 1) frozen.tree = freeze(leaf.building, form, fraction * settings.compensation.strength);
   frozen.tree.tree.bsdfSamplingFraction = fraction;
   frozen.next.building = leaf.building.refined(total, settings.dTreeThreshold, settings.maxDTreeDepth);

@@ -107,10 +107,14 @@ std::vector<double> TrainingSchedule::inverseVarianceWeights() const {
   const std::size_t first = count - std::min<std::size_t>(count, std::size_t(m_settings.combinedIterations));
   std::vector<double> weights(count, 0);
   double total = 0;
-  for (std::size_t i = first; i < count; ++i) {
-    const double variance = m_iterations[i].outcome.variance;
-    weights[i] = variance > 0 ? 1 / variance : 0;
-    total += weights[i];
+  // A short iteration that missed what is rare looks better than it is. Guides improve from iteration to iteration, so
+  // no sample may count more than one of a later iteration.
+  double variancePerSample = 0;
+  for (std::size_t i = count; i-- > first;) {
+    const IterationOutcome& outcome = m_iterations[i].outcome;
+    if (!(outcome.variance > 0)) continue;
+    variancePerSample = std::max(variancePerSample, outcome.variance * double(outcome.spp));
+    total += weights[i] = double(outcome.spp) / variancePerSample;
   }
   if (!(total > 0) || !std::isfinite(total)) {  // no variance known, or none at all: every sample counts the same
     total = 0;

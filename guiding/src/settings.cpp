@@ -51,8 +51,6 @@ Status FieldSettings::validate() const {
     return outOfRange("bsdfSamplingFraction must lie in (0, 1]");
   if (!(recordClip >= 0)) return outOfRange("recordClip must not be negative");
   if (!(minimalGain >= 0)) return outOfRange("minimalGain must not be negative");
-  if (minimalGain > 0 && fractionMode != FractionMode::Fit)
-    return outOfRange("minimalGain needs the fractionMode that fits the loss");
   if (!(compensation.strength >= 0 && compensation.strength <= 1))
     return outOfRange("compensation.strength must lie in [0, 1]");
   return Success{};

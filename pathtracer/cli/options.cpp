@@ -54,6 +54,13 @@ bool isFileName(const std::string& text) {
   return text.ends_with(".json") || text.find('/') != std::string::npos;
 }
 
+/// The same for every way to write it, whether the file is there or not.
+std::filesystem::path nameOnDisk(const std::filesystem::path& file) {
+  std::error_code failed;
+  const auto name = std::filesystem::weakly_canonical(std::filesystem::absolute(file, failed), failed);
+  return failed ? file : name;
+}
+
 std::optional<GuidingSettings> findGuiding(const std::string& name) {
   if (isFileName(name)) return loadGuidingSettings(name);
   if (const GuidingPreset* preset = findGuidingPreset(name)) return preset->settings;
@@ -64,14 +71,13 @@ std::optional<GuidingSettings> findGuiding(const std::string& name) {
 }
 
 std::optional<GuidingSettings> guidingSettings(const SamplingOptions& options) {
-  const bool isDefault = options.guiding.empty();
-  std::optional<GuidingSettings> settings = findGuiding(isDefault ? "mueller2017" : options.guiding);
-  std::string compensation = options.compensation;
-  if (isDefault && compensation.empty()) compensation = "uniform";
-  if (settings && !compensation.empty()) {
-    if (settings->openPgl) throw InputError(fmt::format("--compensation {}: Open PGL has none", compensation));
-    settings->field.compensation = parseCompensation(compensation);
-  }
+  std::optional<GuidingSettings> settings = findGuiding(options.guiding);
+  if (options.compensation.empty()) return settings;
+  if (!settings)
+    throw InputError(
+        fmt::format("--compensation {}: there is nothing to compensate with --guiding none", options.compensation));
+  if (settings->openPgl) throw InputError(fmt::format("--compensation {}: Open PGL has none", options.compensation));
+  settings->field.compensation = parseCompensation(options.compensation);
   return settings;
 }
 
@@ -82,7 +88,7 @@ CLI::IsMember memberOf() {
 
 std::string presetHelp() {
   std::string help =
-      "How to guide: a preset or a settings file (.json) (default: mueller2017 with uniform compensation). Presets:";
+      "How to guide: a preset, or a settings file (.json) with the members of a plan's \"guiding\". Presets:";
   for (const GuidingPreset& preset : guidingPresets())
     help += fmt::format(" {} ({}),", preset.name, preset.description);
   help.pop_back();
@@ -109,7 +115,7 @@ void addOptions(CLI::App& command, SamplingOptions& options) {
   auto* spp =
       command.add_option("--spp", options.spp, "Samples per pixel in all, training included (default: the scene's)");
   command.add_option("--seconds", options.seconds, "Time in all, training included, instead of --spp")->excludes(spp);
-  command.add_option("--guiding", options.guiding, presetHelp());
+  command.add_option("--guiding", options.guiding, presetHelp())->capture_default_str();
   auto* compensation = command.add_option(
       "--compensation", options.compensation,
       "Sharpens the guide against BSDF sampling: none, uniform or clip, with an optional strength from 0 to 1 as in "
@@ -132,6 +138,22 @@ void addOptions(CLI::App& command, SamplingOptions& options) {
   command.add_option("--seed", options.seed, "Another seed gives another, equally good picture")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+}
+
+void requireDistinct(const std::vector<OutputFile>& outputs, const SceneOptions& scene,
+                     const SamplingOptions& sampling) {
+  std::vector<OutputFile> taken{{"the scene", scene.file},
+                                {"--field", sampling.field},
+                                {"--guiding", isFileName(sampling.guiding) ? sampling.guiding : ""}};
+  for (const OutputFile& output : outputs) {
+    if (output.file.empty()) continue;
+    const auto name = nameOnDisk(output.file);
+    for (const OutputFile& other : taken)
+      if (!other.file.empty() && nameOnDisk(other.file) == name)
+        throw InputError(fmt::format("{} {}: this is also the file of {}; choose another name", output.option,
+                                     output.file.string(), other.option));
+    taken.push_back(output);
+  }
 }
 
 SceneDescription loadDescription(const SceneOptions& options) {

@@ -25,8 +25,8 @@ struct SceneOptions {
 struct SamplingOptions {
   std::optional<std::int64_t> spp;
   std::optional<double> seconds;
-  std::string guiding;       ///< preset or settings file; empty: mueller2017 with uniform compensation
-  std::string compensation;  ///< empty: as `guiding` says
+  std::string guiding = "recommended";  ///< preset or settings file
+  std::string compensation;             ///< empty: as `guiding` says
   std::filesystem::path field;
   std::string nee = "on", heuristic = "balance", sampler;
   int threads = 0;
@@ -35,6 +35,16 @@ struct SamplingOptions {
 
 void addOptions(CLI::App& command, SceneOptions& options);
 void addOptions(CLI::App& command, SamplingOptions& options);
+
+/// An option that names a file to be written, and the file.
+struct OutputFile {
+  std::string option;
+  std::filesystem::path file;  ///< empty: none is written
+};
+
+/// Throws InputError where two outputs are the same file, or one would take the place of something that is read.
+void requireDistinct(const std::vector<OutputFile>& outputs, const SceneOptions& scene,
+                     const SamplingOptions& sampling);
 
 /// Loads the scene and applies the options. Throws InputError.
 SceneDescription loadDescription(const SceneOptions& options);

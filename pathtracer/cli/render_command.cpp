@@ -40,8 +40,11 @@ void checkOutputs(const RenderOptions& options) {
         fmt::format("-o {}: the picture is written as OpenEXR; let its name end in .exr", options.output.string()));
   if (options.png.extension() != ".png")
     throw InputError(fmt::format("--png {}: let its name end in .png", options.png.string()));
-  if (std::filesystem::weakly_canonical(options.report) == std::filesystem::weakly_canonical(options.scene.file))
-    throw InputError(fmt::format("--report {}: this is the scene; choose another name", options.report.string()));
+  requireDistinct({{"-o", options.output},
+                   {"--png", options.png},
+                   {"--report", options.report},
+                   {"--save-field", options.saveField}},
+                  options.scene, options.sampling);
   if (!std::isfinite(options.exposure)) throw InputError("--exposure: give a number of stops, such as 1.5");
   requireReplaceable(options.output);
   requireReplaceable(options.png);

@@ -94,6 +94,13 @@ nlohmann::ordered_json toJson(const guiding::FieldStats& stats) {
           {"memoryCapReached", stats.memoryCapReached}};
 }
 
+/// With its own settings: those of a field that was trained before need not be those of the run.
+nlohmann::ordered_json toJson(const guiding::Field& field) {
+  nlohmann::ordered_json json = toJson(field.stats());
+  json["settings"] = toJson(field.settings());
+  return json;
+}
+
 std::int64_t totalSpp(const RenderResult& result) {
   std::int64_t spp = 0;
   for (const IterationReport& iteration : result.iterations) spp += iteration.spp;
@@ -116,7 +123,7 @@ nlohmann::ordered_json makeReport(const std::string& command, const RenderJob& j
           {"renderCpuSeconds", result.cpuSeconds},
           {"iterations", std::move(iterations)},
           {"counters", toJson(result.counters)},
-          {"field", result.field ? toJson(result.field->stats()) : Json()},
+          {"field", result.field ? toJson(*result.field) : Json()},
           {"peakRecordBytes", result.peakRecordBytes},
           {"peakMemoryBytes", peakMemoryBytes()}};
 }

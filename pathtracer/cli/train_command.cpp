@@ -22,6 +22,7 @@ void train(TrainOptions options) {
   if (options.sampling.guiding == "none")
     throw InputError("--guiding none: there is nothing to train; choose a preset");
   if (options.output.empty()) options.output = nameAfter(options.scene.file) + ".field";
+  requireDistinct({{"-o", options.output}, {"--report", options.report}}, options.scene, options.sampling);
   requireReplaceable(options.output);
   if (!options.report.empty()) requireReplaceable(options.report);
 

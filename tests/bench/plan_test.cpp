@@ -37,6 +37,19 @@ std::string complaint(const Json& json) {
 
 }  // namespace
 
+TEST_CASE("every plan that is committed loads") {
+  const std::filesystem::path plans = std::filesystem::path(GUIDING_SOURCE_DIR) / "bench/plans";
+  int loaded = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(plans)) {
+    CAPTURE(entry.path().string());
+    const bench::Plan plan = bench::loadPlan(entry.path());
+    CHECK(plan.variants.size() >= 3);
+    CHECK(plan.scenes.size() >= 2);
+    ++loaded;
+  }
+  CHECK(loaded >= 6);
+}
+
 TEST_CASE("a plan says what to run") {
   const bench::Plan plan = load(goodPlan());
   CHECK(plan.seeds == 3);

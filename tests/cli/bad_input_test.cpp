@@ -164,12 +164,32 @@ TEST_CASE("options that make no sense", "[cli]") {
   refused({"-D", "novalue"}, {"novalue"});
   refused({"--save-field", "a.field", "--guiding", "none"});
   refused({"--field", "a.field", "--guiding", "none"});
+  refused({"--compensation", "uniform", "--guiding", "none"}, {"nothing to compensate"});
   refused({"--no-such-option"}, {"--no-such-option"});
   refused({"another.json"}, {"another.json"});
   checkRefused(space, {}, {});
   checkRefused(space, {"paint", "scene.json"}, {"paint"});
   checkRefused(space, {"render"}, {"scene"});
   checkRefused(space, {"train", "scene.json", "--guiding", "none"}, {"nothing to train"});
+}
+
+TEST_CASE("no output takes the place of an input or of another output", "[cli]") {
+  const Workspace space;
+  space.write("scene.json", kScene);
+  const auto refused = [&](std::vector<std::string> arguments) {
+    checkRefused(space, arguments, {"choose another name"});
+    CHECK(space.read("scene.json") == kScene);
+  };
+  refused({"train", "scene.json", "-o", "scene.json"});
+  refused({"train", "scene.json", "-o", "a.field", "--report", "./a.field"});
+  refused({"render", "scene.json", "--report", "scene.json"});
+  refused({"render", "scene.json", "--save-field", "scene.json"});
+  refused({"render", "scene.json", "-o", "a.exr", "--report", "a.exr"});
+  refused({"render", "scene.json", "-o", "a.exr", "--save-field", "a.exr"});
+  refused({"render", "scene.json", "--png", "b.png", "--report", "b.png"});
+  refused({"render", "scene.json", "--field", "c.field", "--save-field", "c.field"});
+  REQUIRE(space.run({"train", "scene.json", "-o", "c.field", "--spp", "12"}).status == 0);
+  CHECK(space.run({"render", "scene.json", "--field", "c.field", "--save-field", "d.field", "--spp", "4"}).status == 0);
 }
 
 TEST_CASE("pictures that cannot be compared", "[cli]") {

@@ -78,7 +78,7 @@ TEST_CASE("outputs that cannot be written are refused before rendering", "[cli]"
   refused({"-o", "out.jpg"}, 2, "out.jpg");
   refused({"--png", "out.exr"}, 2, "out.exr");
   refused({"--report", "/dev/full"}, 2, "device");
-  refused({"--report", "scene.json"}, 2, "is the scene");
+  refused({"--report", "scene.json"}, 2, "the file of the scene");
   refused({"--save-field", "absent/a.field"}, 2, "absent does not exist");
   refused({"-o", "/proc/out.exr"}, 1, "cannot be written");
 }

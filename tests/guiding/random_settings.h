@@ -28,7 +28,7 @@ class RandomCases {
     s.compensation = {CompensationForm(below(3)), below(3) == 0 ? 1.0f : uniform()};
     s.product = below(2) == 0;
     s.recordClip = below(2) == 0 ? 0 : 0.1f * uniform();
-    if (s.fractionMode == FractionMode::Fit) s.minimalGain = below(2) == 0 ? 0 : 0.1f * uniform();
+    s.minimalGain = below(2) == 0 ? 0 : 0.1f * uniform();
     return s;
   }
 

@@ -171,6 +171,17 @@ TEST_CASE("Inverse variance weights of the last iterations") {
   CHECK(weights[3] == Approx(8.0 / 14));
 }
 
+TEST_CASE("A short iteration that looks too good counts no more a sample than a later one") {
+  TrainingSchedule schedule({1, SampleCombination::InverseVariance, 4, 0.25f}, 147, 0);
+  const IterationOutcome outcomes[] = {{1, 0, 1}, {2, 0.575, 1}, {4, 56.2, 1}, {8, 55.1, 1}, {132, 2.44, 1}};
+  for (const IterationOutcome& outcome : outcomes) schedule.report(schedule.next(), outcome);
+  const std::vector<double> weights = schedule.imageWeights();
+  CHECK(weights[0] == 0);
+  for (int i = 1; i < 4; ++i)
+    CHECK(weights[i] / double(outcomes[i].spp) <= weights[4] / double(outcomes[4].spp) * (1 + 1e-12));
+  CHECK(weights[4] > 0.9);
+}
+
 TEST_CASE("Weights sum to one whatever was reported") {
   std::mt19937 engine(2);
   const double odd[] = {0, 1, 1e-320, 1e300, kInf, -1, std::numeric_limits<double>::quiet_NaN()};

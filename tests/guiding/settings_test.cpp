@@ -45,18 +45,7 @@ TEST_CASE("Every setting out of its range is refused by name") {
   checkRange("compensation.strength", [](FieldSettings& s, float x) { s.compensation.strength = x; }, {0.0f, 1.0f},
              {-0.01f, 1.01f, nan, inf});
   checkRange("recordClip", [](FieldSettings& s, float x) { s.recordClip = x; }, {0.0f, 2.0f}, {-0.01f, nan});
-  checkRange("minimalGain",
-             [](FieldSettings& s, float x) {
-               s.fractionMode = FractionMode::Fit;
-               s.minimalGain = x;
-             },
-             {0.0f, 10.0f}, {-0.01f, nan});
-  checkRange("minimalGain",  // which only a fit can tell
-             [](FieldSettings& s, FractionMode mode) {
-               s.minimalGain = 0.1f;
-               s.fractionMode = mode;
-             },
-             {FractionMode::Fit}, {FractionMode::Fixed, FractionMode::Adam});
+  checkRange("minimalGain", [](FieldSettings& s, float x) { s.minimalGain = x; }, {0.0f, 10.0f}, {-0.01f, nan});
   checkRange("directionMap", [](FieldSettings& s, int x) { s.directionMap = DirectionMap(x); }, {0, 1}, {-1, 2});
   checkRange("spatialFilter", [](FieldSettings& s, int x) { s.spatialFilter = SpatialFilter(x); }, {0, 1}, {-1, 2});
   checkRange("directionalFilter", [](FieldSettings& s, int x) { s.directionalFilter = DirectionalFilter(x); }, {0, 1},

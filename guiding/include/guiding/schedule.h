@@ -13,7 +13,8 @@ enum class SampleCombination {
               ///< 2017]
   Automatic,  ///< as Discard, but training ends and the rest of the budget goes to the density at hand as soon as
               ///< another doubling would raise the extrapolated final variance [ibid., Sec. 4.3]
-  InverseVariance,  ///< the last iterations weighted by the inverse of their mean pixel variance [Müller 2019]
+  InverseVariance,  ///< the last iterations weighted by the inverse of their mean pixel variance [Müller 2019], but
+                    ///< with no more weight a sample than later iterations have
 };
 
 /// Iterations of 2^k passes of `sppPerPass` samples per pixel until the budget is spent.

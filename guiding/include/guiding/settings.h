@@ -79,8 +79,9 @@ struct FieldSettings {
   FractionLoss fractionLoss = FractionLoss::KullbackLeibler;
 
   /// A spatial leaf offers no guide as long as the loss that its fraction minimises falls by less than this against
-  /// sampling the BSDF alone: nats, or a share of the second moment for FractionLoss::Variance. Needs
-  /// FractionMode::Fit. Range: >= 0; 0: every leaf that learned something offers its guide.
+  /// sampling the BSDF alone: nats, or a share of the second moment for FractionLoss::Variance. Only
+  /// FractionMode::Fit can tell; no effect with the others. Range: >= 0; 0: every leaf that learned something offers
+  /// its guide.
   float minimalGain = 0;
 
   /// A sample is learned with at most this share of all that its spatial leaf learned in the iteration before, so that
