@@ -50,7 +50,7 @@ TrainedScene trainIn(const std::filesystem::path& file, std::int64_t spp) {
   settings.height = description.film.height;
   settings.path = description.integrator;
   settings.spp = spp;
-  settings.guiding = pt::findGuidingPreset("recommended")->settings;
+  settings.guiding = pt::findGuidingPreset("bound-product")->settings;
   settings.learnFinal = true;
   pt::RenderResult result = pt::render(scene, settings);
   if (!result.field) throw pt::InputError(file.string() + ": there is no material that a guide could help");

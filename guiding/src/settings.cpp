@@ -24,6 +24,12 @@ FieldSettings FieldSettings::production2019() {
 
 FieldSettings FieldSettings::recommended() {
   FieldSettings s = production2019();
+  s.compensation = {CompensationForm::WaterFilling, 1.0f};
+  return s;
+}
+
+FieldSettings FieldSettings::boundProduct() {
+  FieldSettings s = production2019();
   s.directionMap = DirectionMap::Octahedral;
   s.fractionMode = FractionMode::Fit;
   s.product = true;

@@ -102,7 +102,7 @@ TEST_CASE("Other samples give other bits") {
 }
 
 TEST_CASE("A host that cancels its tasks does not cut learning short") {
-  const FieldSettings settings = manyLeaves(FieldSettings::recommended());
+  const FieldSettings settings = manyLeaves(FieldSettings::boundProduct());
   const Recorded recorded = recordTwice(settings);
   const Bytes expected = trained(settings, recorded, atOnce);
   Bytes bytes;

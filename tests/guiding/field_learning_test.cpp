@@ -121,7 +121,7 @@ TEST_CASE("Bad samples are counted and change nothing else") {
 
 TEST_CASE("Each kind of bad sample is dropped") {
   for (const RadianceSample& bad : badSamples()) {
-    Field field = makeField(FieldSettings::recommended());
+    Field field = makeField(FieldSettings::boundProduct());
     REQUIRE(field.accumulate(bufferOf({bad, good(), bad})));
     CAPTURE(bad.radiance, bad.product, bad.pdf, bad.bsdfPdf, bad.guidePdf, bad.position, bad.direction);
     CHECK(field.stats().droppedSamples == 2);
@@ -180,7 +180,7 @@ TEST_CASE("A tiny number of samples per pixel does not shatter the tree") {
 }
 
 TEST_CASE("An iteration of no or of unreal length is refused and changes nothing") {
-  Field field = train(FieldSettings::recommended(), coneRadiance, 2, 10'000);
+  Field field = train(FieldSettings::boundProduct(), coneRadiance, 2, 10'000);
   REQUIRE(field.accumulate(evenly(100)));
   const Bytes before = bytesOf(field);
   for (const double spp : {0.0, -1.0, double(kNaN), double(kInf)}) {
@@ -246,7 +246,7 @@ TEST_CASE("A learned fraction starts where the settings say") {
 TEST_CASE("Where the BSDF does as well, the guide rests, and returns when it is needed") {
   const Radiance everywhere = [](const Imath::V3f&, const Imath::V3f&) { return 1.0f; };
   for (const bool product : {false, true}) {
-    FieldSettings settings = FieldSettings::recommended();
+    FieldSettings settings = FieldSettings::boundProduct();
     settings.product = product;
     settings.minimalGain = 0;
     CHECK(train(settings, everywhere, 4, 20'000).hasGuide());

@@ -63,12 +63,12 @@ inline double reflected(float albedo, float mirrorAlbedo) {
 /// Settings under which every path of the mixture's code is taken.
 inline std::vector<guiding::FieldSettings> mixtureSettings() {
   guiding::FieldSettings plain = guiding::FieldSettings::mueller2017(), water = plain, skewed = plain,
-                         best = guiding::FieldSettings::recommended();
+                         best = guiding::FieldSettings::boundProduct();
   water.directionMap = guiding::DirectionMap::Octahedral;
   water.compensation.form = guiding::CompensationForm::WaterFilling;
   skewed.bsdfSamplingFraction = 0.2f;
   skewed.compensation = {guiding::CompensationForm::ClipRenormalise, 1.0f};
-  return {plain, water, skewed, guiding::FieldSettings::production2019(), best};
+  return {plain, water, skewed, guiding::FieldSettings::production2019(), guiding::FieldSettings::recommended(), best};
 }
 
 }  // namespace test

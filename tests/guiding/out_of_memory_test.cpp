@@ -44,7 +44,7 @@ int failUntilItWorks(Attempt&& attempt) {
 }
 
 Field trainedField() {
-  FieldSettings settings = FieldSettings::recommended();
+  FieldSettings settings = FieldSettings::boundProduct();
   settings.sTreeThreshold = 500;
   return train(settings, coneRadiance, 2, 5'000);
 }

@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Field smallField(FieldSettings settings = FieldSettings::recommended()) {
+Field smallField(FieldSettings settings = FieldSettings::boundProduct()) {
   settings.sTreeThreshold = 200;
   settings.dTreeThreshold = 0.05f;
   return train(settings, coneRadiance, 2, 400);

@@ -89,4 +89,7 @@ TEST_CASE("The preset of 2019 is what its author recommends") {
 
 TEST_CASE("What we recommend is valid") {
   CHECK(FieldSettings::recommended().validate().ok());
+  CHECK(FieldSettings::recommended().compensation.form == CompensationForm::WaterFilling);
+  CHECK(FieldSettings::boundProduct().validate().ok());
+  CHECK(FieldSettings::boundProduct().product);
 }

@@ -15,8 +15,8 @@ namespace guiding {
 /// recorder is used by one thread at a time and keeps its memory from path to path.
 ///
 /// Order of calls along a path: begin(); then at each scattering vertex addDirect() (if light was sampled there) and
-/// scatter(); after the next intersection addEmission() (if light was met) and, if roulette was played there and the
-/// path went on, survived(); at the end finish().
+/// scatter(); after the next intersection setDistance() (unless the ray left the scene), addEmission() (if light was
+/// met) and, if roulette was played there and the path went on, survived(); at the end finish().
 class PathRecorder {
  public:
   void begin() noexcept {

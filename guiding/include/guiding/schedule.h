@@ -28,7 +28,8 @@ struct ScheduleSettings {
 
   static ScheduleSettings mueller2017() { return {}; }
   static ScheduleSettings production2019() { return {1, SampleCombination::InverseVariance, 4, 1}; }
-  static ScheduleSettings recommended() { return {1, SampleCombination::InverseVariance, 4, 0.25f}; }
+  static ScheduleSettings recommended() { return production2019(); }
+  static ScheduleSettings boundProduct() { return {1, SampleCombination::InverseVariance, 4, 0.25f}; }
   Status validate() const;
 };
 

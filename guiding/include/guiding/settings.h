@@ -104,6 +104,10 @@ struct FieldSettings {
   /// What our measurements recommend (bench/README.md).
   static FieldSettings recommended();
 
+  /// The density bound to the shading point by the host's lobes, and all that goes with it: least error for a number of
+  /// samples, at a price in time that pays where rays are expensive (bench/README.md).
+  static FieldSettings boundProduct();
+
   /// Ok, or which field is out of range.
   Status validate() const;
 };

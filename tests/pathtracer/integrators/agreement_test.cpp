@@ -29,13 +29,13 @@ std::vector<RunningMean> tileMeans(const pt::Scene& scene, pt::RenderSettings se
 /// Guiding of every kind; the last iteration's picture alone, which is unbiased for any number of samples (weights
 /// estimated from the same samples as the pictures are so only in the limit).
 std::vector<std::pair<const char*, pt::GuidingSettings>> guidedVariants() {
-  pt::GuidingSettings recommended = eagerGuiding(CompensationForm::None);
-  recommended.field = guiding::FieldSettings::recommended();
-  recommended.field.sTreeThreshold = 200;
+  pt::GuidingSettings boundProduct = eagerGuiding(CompensationForm::None);
+  boundProduct.field = guiding::FieldSettings::boundProduct();
+  boundProduct.field.sTreeThreshold = 200;
   return {{"guided", eagerGuiding(CompensationForm::None)},
           {"uniform compensation", eagerGuiding(CompensationForm::WaterFilling)},
           {"clipped", eagerGuiding(CompensationForm::ClipRenormalise)},
-          {"recommended", recommended}};
+          {"bound-product", boundProduct}};
 }
 
 pt::SceneDescription bundledScene(const std::string& name) {
