@@ -1,7 +1,7 @@
 'use strict';
 
 const data = JSON.parse(document.getElementById('data').textContent);
-const colours = ['#2563eb', '#dc2626', '#059669', '#d97706', '#7c3aed', '#0891b2', '#be185d', '#4d7c0f', '#78350f', '#475569'];
+const colours = ['#2563eb', '#dc2626', '#059669', '#d97706', '#7c3aed', '#0891b2', '#be185d', '#4d7c0f', '#78350f', '#475569', '#f472b6', '#14b8a6', '#84cc16', '#1e3a8a', '#fb923c', '#111827'];
 const variantNames = data.plan.variants.map(v => v.name);
 const colourOf = name => colours[Math.max(0, variantNames.indexOf(name)) % colours.length];
 
