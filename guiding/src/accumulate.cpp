@@ -81,9 +81,9 @@ void learnRadiance(Field::State& state, const SampleRange& samples) {
 }
 
 /// The density that the guide gives a sample, also where the guide rests and was not mixed in.
-float guidePdfOf(const Field::State& state, std::uint32_t leaf, const RadianceSample& s) noexcept {
+float guidePdfOf(const Field::State& state, const RadianceSample& s) noexcept {
   if (s.pdf != s.bsdfPdf) return s.guidePdf;
-  const std::uint32_t tree = state.densityOfLeaf[leaf] & ~GuidingDensity::kResting;
+  const std::uint32_t tree = state.densityOfLeaf[state.tree.leafAt(s.position)] & ~GuidingDensity::kResting;
   return state.density.pdf(tree, state.density.tree(tree).grid, s.direction);
 }
 
@@ -99,7 +99,7 @@ void learnFraction(Field::State& state, const SampleRange& samples) {
         return s.pdf != s.bsdfPdf || rests ? leaf : kNoLeaf;
       },
       [&](const RadianceSample& s) {
-        return FractionRecord{s.product, s.pdf, s.bsdfPdf, guidePdfOf(state, state.tree.leafAt(s.position), s)};
+        return FractionRecord{s.product, s.pdf, s.bsdfPdf, guidePdfOf(state, s)};
       });
   const FractionLoss loss = state.settings.fractionLoss;
   parallelFor(state.leaves.size(), kLeafGrain, [&](std::size_t leaf) {

@@ -20,9 +20,6 @@ Status validateBuilding(const SpatialLeaf& leaf, std::size_t index, int maxDepth
     for (const double sum : node.sum)
       if (!(sum >= 0) || !std::isfinite(sum)) return violation("flux of a quadtree cell of spatial leaf", index);
   if (!(leaf.largestRecord >= 0)) return violation("largest record of spatial leaf", index);
-  if (!(leaf.fraction > 0 && leaf.fraction <= 1)) return violation("fraction of spatial leaf", index);
-  if (!std::isfinite(leaf.adam.logit) || !std::isfinite(leaf.adam.firstMoment) || !(leaf.adam.secondMoment >= 0))
-    return violation("fraction optimiser of spatial leaf", index);
   return Success{};
 }
 
