@@ -114,9 +114,10 @@ Kind readPlastic(Context&, Reader& reader) {
   return readPlasticBase(reader);
 }
 
-Kind readRoughPlastic(Context&, Reader& reader) {
+Kind readRoughPlastic(Context& context, Reader& reader) {
   PlasticMaterial plastic = readPlasticBase(reader);
   plastic.roughness = readRoughness(reader);
+  plastic.roughBoundary = context.isOld() ? RoughBoundary::Transmitted : RoughBoundary::NotReflected;
   return plastic;
 }
 

@@ -74,7 +74,8 @@ std::unique_ptr<Material> makePlastic(const PlasticMaterial& description, const 
   const Spectrum diffuse = parameters.reflectance(description.diffuseReflectance, "diffuseReflectance");
   const Spectrum specular = parameters.reflectance(description.specularReflectance, "specularReflectance");
   if (const auto facets = parameters.microfacets(description.roughness)) {
-    const auto transmittance = cache.get(description.roughness->distribution, description.roughness->alpha.value, eta);
+    const auto transmittance = cache.get(description.roughness->distribution, description.roughness->alpha.value, eta,
+                                         description.roughBoundary);
     return makeRoughPlastic(eta, diffuse, specular, description.nonlinear, *facets, transmittance);
   }
   return std::make_unique<SmoothPlastic>(eta, diffuse, specular, description.nonlinear);

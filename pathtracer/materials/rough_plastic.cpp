@@ -8,8 +8,7 @@ namespace pt {
 
 namespace {
 
-/// A diffuse base under a boundary of microfacets [Mitsuba 0.6, roughplastic]. Mitsuba 3's base is 2% darker: its sum
-/// over 64 angles for the reflectance inside falls short of the integral.
+/// A diffuse base under a boundary of microfacets [Mitsuba 0.6, roughplastic].
 class RoughPlastic final : public Material {
  public:
   RoughPlastic(float eta, const Spectrum& diffuse, const Spectrum& specular, bool nonlinear, const Microfacets& facets,
@@ -21,8 +20,7 @@ class RoughPlastic final : public Material {
         m_diffuseWeight(luminance(diffuse)),
         m_facets(facets),
         m_transmittance(std::move(transmittance)) {
-    // What does not pass the boundary from inside returns to the base.
-    const float inside = 1 - m_transmittance->diffuse() / (eta * eta);
+    const float inside = m_transmittance->insideReflectance();
     for (int c = 0; c < 3; ++c) {
       const float returned = nonlinear ? diffuse[c] * inside : inside;
       m_base[c] = diffuse[c] / ((1 - returned) * eta * eta);

@@ -80,11 +80,17 @@ struct ThinDielectricMaterial {
   float intIor = 1.5046f, extIor = 1.000277f;
   SpectrumParameter specularReflectance{1.0f}, specularTransmittance{1.0f};
 };
+/// How much light enters the base of a rough plastic, and how much is kept there.
+enum class RoughBoundary {
+  Transmitted,   ///< what the boundary's facets refract and do not mask, integrated exactly (Mitsuba 0.6)
+  NotReflected,  ///< all that the facets do not reflect, so also what they mask; Mitsuba 2 and 3, with their sums
+};
 struct PlasticMaterial {
   float intIor = 1.49f, extIor = 1.000277f;
   SpectrumParameter diffuseReflectance{0.5f}, specularReflectance{1.0f};
   bool nonlinear = false;  ///< account for colour shifts of light that bounces inside
   std::optional<Roughness> roughness;
+  RoughBoundary roughBoundary = RoughBoundary::Transmitted;
 };
 /// Indices into SceneDescription::materials; `back` may equal `front`.
 struct TwoSidedMaterial {

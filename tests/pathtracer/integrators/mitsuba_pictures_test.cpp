@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include "catch.h"
+#include "core/pcg32.h"
+#include "film/image_io.h"
+#include "loaders/load_scene.h"
+#include "picture_z_test.h"
+#include "scenes.h"
+
+using namespace test;
+
+// The test scenes of Mitsuba 3, kept beside the project with means and variances of its pictures; where they are absent
+// these tests say so and pass. What differs from those pictures for a reason:
+// - Single precision. They were summed in it over 32000 samples, as XYZ: where a sample is exactly 1 they read 1.0011,
+//   0.9997, 0.9997, on a grey mirror 0.9217, 0.9238, 0.9234; their variances there are negative.
+// - Rough plastic. Mitsuba 2 and 3 let the base have all that the boundary's facets do not reflect, and sum the light
+// that
+//   returns inside over 64 angles, which makes the base 2% darker than the integral (see RoughBoundary): so do we in
+//   scenes of those versions.
+namespace {
+
+constexpr double kReferenceSpp = 32000, kReferenceRounding = 1.5e-3;
+constexpr int kRuns = 64, kSppPerRun = 32;
+
+struct Region {
+  int x0, y0, x1, y1;  ///< the end is excluded
+};
+
+struct TestScene {
+  std::string name;  ///< folder/stem
+  std::vector<Region> leftOut;
+  bool skipUnsupported = false;
+};
+
+ReferencePicture readReference(const std::filesystem::path& folder, const std::string& stem) {
+  return {pt::readImage(folder / (stem + "_ref_rgb.exr")), pt::readImage(folder / (stem + "_ref_rgb_var.exr")),
+          kReferenceSpp, kReferenceRounding};
+}
+
+NoisyPicture renderScene(const std::filesystem::path& file, bool skipUnsupported) {
+  pt::LoadOptions options;
+  options.skipUnsupported = skipUnsupported;
+  const pt::SceneDescription description = pt::loadScene(file, options);
+  const pt::Scene scene(description);
+  pt::RenderSettings settings = settingsFor(description, kSppPerRun);
+  settings.threads = 2;
+  return renderRuns(scene, settings, kRuns);
+}
+
+/// The reference with an error, to see that it is seen.
+ReferencePicture brightened(ReferencePicture reference, float factor) {
+  for (pt::Spectrum& pixel : reference.mean.pixels) pixel *= factor;
+  return reference;
+}
+
+void checkEqual(const TestScene& test) {
+  const auto scenes = std::filesystem::path(GUIDING_SHARED_SCENES) / "mitsuba3-tests/tests/scenes";
+  const std::filesystem::path file = scenes / (test.name + "_path.xml");
+  if (!std::filesystem::exists(file)) {
+    std::cout << "skipped: " << file.string() << " is not here\n";
+    return;
+  }
+  const std::string stem = std::filesystem::path(test.name).filename().string();
+  const ReferencePicture reference = readReference(file.parent_path() / "refs", stem);
+  const NoisyPicture ours = renderScene(file, test.skipUnsupported);
+  const auto leftOut = [&](int x, int y) {
+    return std::any_of(test.leftOut.begin(), test.leftOut.end(),
+                       [=](const Region& r) { return x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1; });
+  };
+  const PictureZTest equal = zTestPicture(ours, reference, leftOut);
+  INFO(test.name << ": " << equal.message);
+  if (!equal.passed) UNSCOPED_INFO("pictures in " << writeErrorPictures(stem, ours, reference, equal));
+  CHECK(equal.passed);
+  CHECK_FALSE(zTestPicture(ours, brightened(reference, 1.05f), leftOut).passed);
+}
+
+/// The grid's textured sphere and masked leaves.
+const std::vector<Region> kTexturedThings = {{29, 19, 37, 28}, {29, 29, 48, 39}};
+
+}  // namespace
+
+TEST_CASE("Mitsuba 3's pictures: spheres of all materials") {
+  checkEqual({"bsdf_spheres/test_constant", kTexturedThings, true});
+  checkEqual({"bsdf_spheres/test_arealight", kTexturedThings, true});
+}
+
+TEST_CASE("the z-test of pictures passes equal means and rejects unequal ones") {
+  // Pixels of noise about 1 with a standard deviation of 0.5, in runs of 16 samples.
+  const auto noisyPicture = [](double mean, std::uint64_t seed) {
+    NoisyPicture picture{16, 16, std::vector<RunningMean>(std::size_t(3 * 16 * 16))};
+    pt::Pcg32 random(seed, 1);
+    for (RunningMean& channel : picture.channels)
+      for (int run = 0; run < 32; ++run) {
+        double sum = 0;
+        for (int i = 0; i < 16; ++i) sum += mean + std::sqrt(3.0) * (double(random.next()) * 0x1p-32 - 0.5);
+        channel.add(sum / 16);
+      }
+    return picture;
+  };
+  ReferencePicture reference{pt::Image(16, 16), pt::Image(16, 16), 1000};
+  for (pt::Spectrum& pixel : reference.mean.pixels) pixel = pt::Spectrum(1.0f);
+  for (pt::Spectrum& pixel : reference.variance.pixels) pixel = pt::Spectrum(0.25f);
+
+  for (std::uint64_t seed = 0; seed < 20; ++seed) CHECK(zTestPicture(noisyPicture(1, seed), reference).passed);
+  const PictureZTest rejected = zTestPicture(noisyPicture(1.1, 0), reference);
+  CHECK_FALSE(rejected.passed);
+  CHECK(rejected.message.find("brighter") != std::string::npos);
+  reference.rounding = 0.1;
+  CHECK(zTestPicture(noisyPicture(1.1, 0), reference).passed);
+  const auto all = [](int, int y) { return y < 15; };
+  CHECK(zTestPicture(noisyPicture(1.1, 0), reference, all).message.find(" of 48 channels") != std::string::npos);
+}
