@@ -50,11 +50,15 @@ LightSample SphereLight::sampleCone(const Imath::V3d& toCenter, const Vec2& u) c
 LightSample SphereLight::sampleInside(const Imath::V3d& toCenter, const Vec2& u) const noexcept {
   LightSample result;
   result.wi = squareToUniformSphere(u);
-  const double b = toCenter.dot(Imath::V3d(result.wi));
+  // The float direction is not quite of unit length, which moves the far side by as much as the error below.
+  const Imath::V3d wi(result.wi);
+  const double a = wi.length2(), b = toCenter.dot(wi);
   const double c = toCenter.length2() - m_sphere.radius * m_sphere.radius;  // <= 0
-  const double root = std::sqrt(b * b - c);
-  const double length = b > 0 ? b + root : -c / (root - b);
-  const double error = 8 * double(kHalfUlp) * (m_sphere.radius + maxAbs(Vec3(m_sphere.center)));
+  const double root = std::sqrt(b * b - a * c);
+  const double length = b > 0 ? (b + root) / a : -c / (root - b);
+  // The ray starts off the surface, which may be the sphere's own: up to 5 half units beside p, and all its numbers are
+  // rounded.
+  const double error = 16 * double(kHalfUlp) * (m_sphere.radius + maxAbs(Vec3(m_sphere.center)));
   if (!(length > error)) return LightSample();
   result.distance = float(length - error);
   result.radiance = m_radiance;
