@@ -9,6 +9,8 @@ namespace {
 /// Below this many samples per pixel the variance estimates are too rough to end training on [Müller et al. 2017,
 /// authors' code].
 constexpr std::int64_t kAutomaticMinSpp = 256;
+/// Iterations that are learned before guiding may be put on trial: fewer samples tell too little of either.
+constexpr int kIterationsBeforeTrial = 3;
 }  // namespace
 
 Status ScheduleSettings::validate() const {
@@ -18,6 +20,7 @@ Status ScheduleSettings::validate() const {
     return Error{ErrorCode::InvalidArgument, "combination is not one of its values"};
   if (!(trainingShare > 0 && trainingShare <= 1))
     return Error{ErrorCode::InvalidArgument, "trainingShare must lie in (0, 1]"};
+  if (!(trialShare >= 0 && trialShare < 1)) return Error{ErrorCode::InvalidArgument, "trialShare must lie in [0, 1)"};
   if (combinedIterations < 1) return Error{ErrorCode::InvalidArgument, "combinedIterations must be at least 1"};
   return Success{};
 }
@@ -41,15 +44,28 @@ IterationPlan TrainingSchedule::next() const {
   const double remaining = remainingBudget();
   if (!(remaining > 0) || (!m_iterations.empty() && m_iterations.back().plan.isFinal)) return plan;
 
-  const int doublings = std::min(plan.index, 30);
-  plan.spp = std::int64_t(m_settings.sppPerPass) << doublings;
-  const double expectedCost = m_sppBudget > 0        ? double(plan.spp)
-                              : m_iterations.empty() ? 0.0
-                                                     : 2 * m_iterations.back().outcome.seconds;
+  const Iteration* trial = this->trial();
+  const int learned = plan.index - (trial ? 1 : 0);
+  plan.spp = std::int64_t(m_settings.sppPerPass) << std::min(learned, 30);
+  const double expectedCost = m_sppBudget > 0 ? double(plan.spp) : 2 * secondsOfLastGuided();
+  const double budget = m_sppBudget > 0 ? double(m_sppBudget) : m_secondsBudget;
+
+  if (!trial && learned >= kIterationsBeforeTrial && trialIsDue(budget - remaining, expectedCost)) {
+    plan.spp = m_iterations.back().outcome.spp;
+    plan.usesGuide = false;
+    if (m_sppBudget > 0) plan.spp = std::min(plan.spp, std::int64_t(remaining));
+    return plan;
+  }
+  if (trial && !guidePays(*trial)) {
+    plan.usesGuide = false;
+    plan.keepsDensity = true;
+    plan.isFinal = true;
+    plan.spp = m_sppBudget > 0 ? std::int64_t(remaining) : kUntilTimeIsOver;
+    return plan;
+  }
 
   plan.keepsDensity = m_settings.combination == SampleCombination::Automatic && trainingShouldEnd();
   // An iteration that would leave less than twice itself takes the rest: no tiny last iteration.
-  const double budget = m_sppBudget > 0 ? double(m_sppBudget) : m_secondsBudget;
   const bool isTrained = budget - remaining + expectedCost > m_settings.trainingShare * budget;
   plan.isFinal = plan.keepsDensity || isTrained || remaining - expectedCost < 2 * expectedCost;
   if (plan.isFinal) plan.spp = m_sppBudget > 0 ? std::int64_t(remaining) : kUntilTimeIsOver;
@@ -58,6 +74,36 @@ IterationPlan TrainingSchedule::next() const {
 
 void TrainingSchedule::report(const IterationPlan& plan, const IterationOutcome& outcome) {
   m_iterations.push_back({plan, outcome});
+}
+
+/// The first iteration without the guide; null as long as there was none.
+const TrainingSchedule::Iteration* TrainingSchedule::trial() const {
+  const auto found =
+      std::find_if(m_iterations.begin(), m_iterations.end(), [](const Iteration& i) { return !i.plan.usesGuide; });
+  return found == m_iterations.end() ? nullptr : &*found;
+}
+
+double TrainingSchedule::secondsOfLastGuided() const {
+  const auto found =
+      std::find_if(m_iterations.rbegin(), m_iterations.rend(), [](const Iteration& i) { return i.plan.usesGuide; });
+  return found == m_iterations.rend() ? 0 : found->outcome.seconds;
+}
+
+bool TrainingSchedule::trialIsDue(double spent, double expectedCost) const {
+  const double budget = m_sppBudget > 0 ? double(m_sppBudget) : m_secondsBudget;
+  return m_settings.trialShare > 0 && spent + expectedCost > m_settings.trialShare * budget;
+}
+
+/// The variance of heavy-tailed samples grows with their number, so only iterations of equally many are compared: the
+/// trial with the one before it.
+bool TrainingSchedule::guidePays(const Iteration& trial) const {
+  const IterationOutcome& with = (&trial - 1)->outcome;
+  const IterationOutcome& without = trial.outcome;
+  // Either estimate may miss what is rare, neither invents it.
+  const double unguidedVariance = std::max(without.relativeVariance, with.unguidedRelativeVariance);
+  const auto cost = [this](const IterationOutcome& o) { return m_sppBudget > 0 ? double(o.spp) : o.tracingSeconds; };
+  const double guided = with.relativeVariance * cost(with), unguided = unguidedVariance * cost(without);
+  return !(guided > 0 && unguided > 0) || guided < unguided;
 }
 
 bool TrainingSchedule::trainingShouldEnd() const {
@@ -94,7 +140,7 @@ std::vector<double> TrainingSchedule::lastWeights() const {
   const std::size_t last = m_iterations.size() - 1;
   const double a = last > 0 ? double(m_iterations[last - 1].outcome.spp) : 0,
                b = double(m_iterations[last].outcome.spp);
-  if (m_iterations[last].plan.keepsDensity && last > 0 && a + b > 0) {
+  if (m_iterations[last].plan.keepsDensity && m_iterations[last].plan.usesGuide && last > 0 && a + b > 0) {
     weights[best] = 0;
     weights[last - 1] = a / (a + b);
     weights[last] = b / (a + b);

@@ -22,9 +22,12 @@ Json toJson(const IterationReport& iteration) {
   return {{"index", iteration.index},
           {"spp", iteration.spp},
           {"seconds", iteration.seconds},
+          {"guided", iteration.guided},
           {"trainSeconds", iteration.trainSeconds},
           {"freezeSeconds", iteration.freezeSeconds},
           {"variance", iteration.variance},
+          {"relativeVariance", iteration.relativeVariance},
+          {"unguidedRelativeVariance", iteration.unguidedRelativeVariance},
           {"weight", iteration.weight}};
 }
 

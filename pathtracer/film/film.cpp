@@ -1,5 +1,6 @@
 #include "film/film.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace pt {
@@ -8,6 +9,18 @@ namespace {
 /// As pt::luminance, in double: both the mean and the mean square see the same value.
 double luminance(double r, double g, double b) {
   return 0.212671 * r + 0.715160 * g + 0.072169 * b;
+}
+
+double meanOf(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+}
+
+/// Without the 0.1% largest.
+double meanWithoutWorst(std::vector<double>& values) {
+  const std::size_t kept = values.size() - values.size() / 1000;
+  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(kept) - 1, values.end());
+  values.resize(kept);
+  return meanOf(values);
 }
 
 }  // namespace
@@ -43,22 +56,41 @@ Image Film::mean() const {
   return image;
 }
 
-double Film::variance(const Pixel& p) noexcept {
+double Film::variance(const Pixel& p, double sumOfSquares) noexcept {
   if (p.count < 2) return 0;
   const double n = p.count;
   const double mean = luminance(p.sum[0], p.sum[1], p.sum[2]) / n;
-  return std::max(0.0, p.luminance2 / n - mean * mean) / (n - 1);
+  return std::max(0.0, sumOfSquares / n - mean * mean) / (n - 1);
 }
 
 double Film::meanVariance() const {
   double sum = 0;
-  for (const Pixel& p : m_pixels) sum += variance(p);
+  for (const Pixel& p : m_pixels) sum += variance(p, p.luminance2);
   return m_pixels.empty() ? 0 : sum / double(m_pixels.size());
+}
+
+Film::RelativeVariance Film::relativeVariance(const Image& levelSum, double spp) const {
+  std::vector<double> squaredLevel(m_pixels.size());
+  std::transform(levelSum.pixels.begin(), levelSum.pixels.end(), squaredLevel.begin(), [spp](const Spectrum& sum) {
+    const double level = luminance(sum.x, sum.y, sum.z) / spp;
+    return level * level;
+  });
+  const double floor = 0.01 * meanOf(squaredLevel);
+  if (!(floor > 0)) return {};
+
+  std::vector<double> here(m_pixels.size()), unguided(m_pixels.size());
+  for (std::size_t i = 0; i < m_pixels.size(); ++i) {
+    const Pixel& p = m_pixels[i];
+    here[i] = variance(p, p.luminance2) / (squaredLevel[i] + floor);
+    unguided[i] = variance(p, p.unguided2) / (squaredLevel[i] + floor);
+  }
+  return {meanWithoutWorst(here), meanWithoutWorst(unguided)};
 }
 
 std::vector<float> Film::pixelVariance() const {
   std::vector<float> result(m_pixels.size());
-  std::transform(m_pixels.begin(), m_pixels.end(), result.begin(), [](const Pixel& p) { return float(variance(p)); });
+  std::transform(m_pixels.begin(), m_pixels.end(), result.begin(),
+                 [](const Pixel& p) { return float(variance(p, p.luminance2)); });
   return result;
 }
 

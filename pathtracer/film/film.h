@@ -32,10 +32,24 @@ class Film {
   /// rejectedSamples().
   void add(int x, int y, const Spectrum& radiance) noexcept;
 
+  /// Adds what the same sample tells of the second moment that the pixel would have without a guide
+  /// (PathWorker::unguidedSquare).
+  void addUnguidedSquare(int x, int y, float square) noexcept {
+    m_pixels[std::size_t(y) * m_width + x].unguided2 += square;
+  }
+
   void clear();
   Image mean() const;
   /// Mean over pixels of the unbiased variance of the pixel's mean, luminance; 0 for fewer than 2 samples a pixel.
   double meanVariance() const;
+  struct RelativeVariance {
+    double here = 0;      ///< of this film's samples
+    double unguided = 0;  ///< of as many samples without a guide, as addUnguidedSquare() predicts; black without it
+  };
+  /// Mean over pixels of the variance of the pixel's mean over the squared luminance of a picture, which is raised by a
+  /// hundredth of its mean square (black pixels); without the 0.1% that are worst. The picture is levelSum / spp. 0 for
+  /// fewer than 2 samples a pixel or a black picture.
+  RelativeVariance relativeVariance(const Image& levelSum, double spp) const;
   /// Unbiased variance of each pixel's mean, luminance.
   std::vector<float> pixelVariance() const;
   std::uint64_t rejectedSamples() const noexcept;
@@ -44,10 +58,11 @@ class Film {
   struct Pixel {
     double sum[3];
     double luminance2;  ///< sum of squared luminances
+    double unguided2;   ///< sum of PathWorker::unguidedSquare
     std::uint32_t count;
     std::uint32_t rejected;
   };
-  static double variance(const Pixel& pixel) noexcept;
+  static double variance(const Pixel& pixel, double sumOfSquares) noexcept;
 
   int m_width, m_height;
   std::vector<Pixel> m_pixels;

@@ -9,12 +9,14 @@ namespace pt {
 namespace {
 
 struct NoGuides {
+  static constexpr bool kGuides = false;
   using Distribution = guiding::GuidingDistribution;
 
   Distribution bind(const SurfaceInteraction&, const SurfaceBsdf&, Sampler&, PathWorker&) const noexcept { return {}; }
 };
 
 struct FieldGuides {
+  static constexpr bool kGuides = true;
   using Distribution = guiding::GuidingDistribution;
   const guiding::Field& field;
 

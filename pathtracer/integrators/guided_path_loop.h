@@ -10,11 +10,12 @@
 namespace pt {
 
 /// Where the path loop gets the guide of a shading point from. The sampler and the worker are for look-ups that are
-/// random or need memory.
+/// random or need memory. kGuides: whether there is a guide anywhere.
 template <class G>
 concept GuideSource = requires(const G& guides, const SurfaceInteraction& si, const SurfaceBsdf& bsdf, Sampler& sampler,
                                PathWorker& worker) {
   requires guiding::Guide<typename G::Distribution>;
+  { G::kGuides } -> std::convertible_to<bool>;
   { guides.bind(si, bsdf, sampler, worker) } -> std::same_as<typename G::Distribution>;
 };
 
@@ -36,10 +37,20 @@ class GuidedPathLoop final : public PathLoop {
   using Distribution = typename Guides::Distribution;
   struct PathState;
 
-  Spectrum emission(const PathState& path, const Ray& ray, const SurfaceInteraction* hit) const noexcept;
+  /// Radiance of a light and the density with which light sampling would have found it; 0: it could not.
+  struct Emission {
+    Spectrum radiance{0.0f};
+    float lightPdf = 0;
+  };
+  /// Light found by light sampling: as this estimator counts it, and as it would without a guide.
+  struct DirectLight {
+    Spectrum radiance{0.0f}, unguided{0.0f};
+  };
+
+  Emission emission(const PathState& path, const Ray& ray, const SurfaceInteraction* hit) const noexcept;
   bool survivesRoulette(PathState& path, Sampler& sampler, PathWorker& worker) const noexcept;
-  Spectrum sampleDirect(const SurfaceInteraction& si, const SurfaceBsdf& bsdf, const Distribution& guide,
-                        Sampler& sampler, RenderCounters& counters) const noexcept;
+  DirectLight sampleDirect(const SurfaceInteraction& si, const SurfaceBsdf& bsdf, const Distribution& guide,
+                           Sampler& sampler, RenderCounters& counters) const noexcept;
   bool scatter(PathState& path, const SurfaceInteraction& si, const SurfaceBsdf& bsdf, const Distribution& guide,
                Sampler& sampler, PathWorker& worker, Ray& ray) const noexcept;
   bool pathEnds(const PathState& path, const SurfaceInteraction& si) const noexcept;
@@ -58,11 +69,14 @@ struct GuidedPathLoop<Guides>::PathState {
   Spectrum throughput{1.0f};
   /// The throughput that BSDF sampling alone would have given this path. Roulette goes by it: a guide makes the
   /// throughput small exactly where much light is expected, and those paths must live.
-  Spectrum rouletteThroughput{1.0f};
-  float eta = 1;        ///< product of the relative indices of refraction crossed
-  int depth = 1;        ///< edges from the camera to the current hit
-  Vec3 previous;        ///< where the path scattered last
-  float pdf = 0;        ///< mixture density of the ray at `previous`, per solid angle
+  Spectrum unguidedThroughput{1.0f};
+  Spectrum unguidedRadiance{0.0f};  ///< what BSDF sampling alone would have counted for this path
+  float likelihood = 1;             ///< density of this path under BSDF sampling alone over its density here
+  float eta = 1;                    ///< product of the relative indices of refraction crossed
+  int depth = 1;                    ///< edges from the camera to the current hit
+  Vec3 previous;                    ///< where the path scattered last
+  float pdf = 0;                    ///< mixture density of the ray at `previous`, per solid angle
+  float bsdfPdf = 0;                ///< the BSDF's own
   bool isDelta = true;  ///< light sampling at `previous` cannot find what the ray met: camera rays and delta scattering
 };
 
@@ -81,9 +95,12 @@ Spectrum GuidedPathLoop<Guides>::trace(Ray ray, Sampler& sampler, PathWorker& wo
     if (worker.records && hit) worker.recorder.setDistance(si.distance);
 
     // Emission, weighted against light sampling
-    const Spectrum emitted = emission(path, ray, hit ? &si : nullptr);
-    path.radiance += path.throughput * emitted;
-    if (worker.records) worker.recorder.addEmission(emitted);
+    const Emission emitted = emission(path, ray, hit ? &si : nullptr);
+    const Spectrum weighted = emitted.radiance * misWeight(path.pdf, emitted.lightPdf);
+    path.radiance += path.throughput * weighted;
+    if constexpr (Guides::kGuides)
+      path.unguidedRadiance += path.unguidedThroughput * emitted.radiance * misWeight(path.bsdfPdf, emitted.lightPdf);
+    if (worker.records) worker.recorder.addEmission(weighted);
 
     // The end of the path
     if (!hit || pathEnds(path, si)) break;
@@ -96,30 +113,32 @@ Spectrum GuidedPathLoop<Guides>::trace(Ray ray, Sampler& sampler, PathWorker& wo
 
     // Direct light
     if (m_nee && hasSmooth) {
-      const Spectrum direct = sampleDirect(si, bsdf, guide, sampler, worker.counters);
-      path.radiance += path.throughput * direct;
-      if (worker.records) worker.recorder.addDirect(direct);
+      const DirectLight direct = sampleDirect(si, bsdf, guide, sampler, worker.counters);
+      path.radiance += path.throughput * direct.radiance;
+      if constexpr (Guides::kGuides) path.unguidedRadiance += path.unguidedThroughput * direct.unguided;
+      if (worker.records) worker.recorder.addDirect(direct.radiance);
     }
 
     // The next direction
     if (!scatter(path, si, bsdf, guide, sampler, worker, ray)) break;
   }
+  const float unguided = luminance(Guides::kGuides ? path.unguidedRadiance : path.radiance);
+  worker.unguidedSquare = unguided * unguided * path.likelihood;
   return path.radiance;
 }
 
 template <GuideSource Guides>
-Spectrum GuidedPathLoop<Guides>::emission(const PathState& path, const Ray& ray,
-                                          const SurfaceInteraction* hit) const noexcept {
-  if (m_settings.hideEmitters && path.depth == 1) return Spectrum(0.0f);
+auto GuidedPathLoop<Guides>::emission(const PathState& path, const Ray& ray,
+                                      const SurfaceInteraction* hit) const noexcept -> Emission {
+  if (m_settings.hideEmitters && path.depth == 1) return {};
   Spectrum emitted(0.0f);
   if (hit) {
     if (hit->light) emitted = hit->light->radiance(*hit, hit->wo);
   } else if (const EnvironmentLight* environment = m_scene.environment()) {
     emitted = environment->radianceFrom(ray.direction);
   }
-  if (path.isDelta || !m_nee || isBlack(emitted)) return emitted;
-  const float lightPdf = hit ? m_scene.pdfDirect(path.previous, *hit) : m_scene.pdfEnvironment(ray.direction);
-  return emitted * misWeight(path.pdf, lightPdf);
+  if (path.isDelta || !m_nee || isBlack(emitted)) return {emitted};
+  return {emitted, hit ? m_scene.pdfDirect(path.previous, *hit) : m_scene.pdfEnvironment(ray.direction)};
 }
 
 template <GuideSource Guides>
@@ -133,27 +152,29 @@ template <GuideSource Guides>
 bool GuidedPathLoop<Guides>::survivesRoulette(PathState& path, Sampler& sampler, PathWorker& worker) const noexcept {
   if (path.depth <= m_settings.rrDepth) return true;
   // The radiance carried shrinks by eta^2 at each refraction and may grow again at the next; roulette looks past that.
-  const float survivalProbability = std::min(maxComponent(path.rouletteThroughput) * path.eta * path.eta, 0.95f);
+  const float survivalProbability = std::min(maxComponent(path.unguidedThroughput) * path.eta * path.eta, 0.95f);
   if (!(sampler.next1D() < survivalProbability)) return false;
   path.throughput /= survivalProbability;
-  path.rouletteThroughput /= survivalProbability;
+  path.unguidedThroughput /= survivalProbability;
   if (worker.records) worker.recorder.survived(survivalProbability);
   return true;
 }
 
 template <GuideSource Guides>
-Spectrum GuidedPathLoop<Guides>::sampleDirect(const SurfaceInteraction& si, const SurfaceBsdf& bsdf,
-                                              const Distribution& guide, Sampler& sampler,
-                                              RenderCounters& counters) const noexcept {
+auto GuidedPathLoop<Guides>::sampleDirect(const SurfaceInteraction& si, const SurfaceBsdf& bsdf,
+                                          const Distribution& guide, Sampler& sampler,
+                                          RenderCounters& counters) const noexcept -> DirectLight {
   const float uLight = sampler.next1D();
   const DirectSample light = m_scene.sampleDirect(si.p, uLight, sampler.next2D());
-  if (!(light.pdf > 0) || isBlack(light.radiance)) return Spectrum(0.0f);
+  if (!(light.pdf > 0) || isBlack(light.radiance)) return {};
   const BsdfEvaluation f = bsdf.evaluate(light.wi);
-  if (isBlack(f.bsdfCos)) return Spectrum(0.0f);
+  if (isBlack(f.bsdfCos)) return {};
   ++counters.shadowRays;
-  if (!m_scene.visible(si, light)) return Spectrum(0.0f);
-  const float weight = light.isDelta ? 1.0f : misWeight(light.pdf, guiding::mixturePdf(guide, f.pdf, light.wi));
-  return f.bsdfCos * light.radiance * (weight / light.pdf);
+  if (!m_scene.visible(si, light)) return {};
+  const Spectrum unweighted = f.bsdfCos * light.radiance * (1 / light.pdf);
+  if (light.isDelta) return {unweighted, unweighted};
+  return {unweighted * misWeight(light.pdf, guiding::mixturePdf(guide, f.pdf, light.wi)),
+          unweighted * misWeight(light.pdf, f.pdf)};
 }
 
 template <GuideSource Guides>
@@ -164,13 +185,16 @@ bool GuidedPathLoop<Guides>::scatter(PathState& path, const SurfaceInteraction& 
   const auto draw = guiding::sampleMixture(bsdf, guide, uChoice, sampler.next2D());
   ++worker.counters.scatterings;
   if (guide) ++worker.counters.guidedScatterings;
+  if constexpr (Guides::kGuides)
+    if (draw.pdf > 0) path.likelihood *= draw.bsdfPdf / draw.pdf;
   if (isBlack(draw.weight)) return false;
 
   path.throughput *= draw.weight;
-  path.rouletteThroughput *= draw.bsdfPdf > 0 ? draw.weight * (draw.pdf / draw.bsdfPdf) : draw.weight;
+  path.unguidedThroughput *= draw.bsdfPdf > 0 ? draw.weight * (draw.pdf / draw.bsdfPdf) : draw.weight;
   path.eta *= bsdf.etaCrossed(draw.wi);
   path.previous = si.p;
   path.pdf = draw.pdf;
+  path.bsdfPdf = draw.bsdfPdf;
   path.isDelta = draw.isDelta;
   if (worker.records)
     worker.recorder.scatter(
@@ -181,6 +205,7 @@ bool GuidedPathLoop<Guides>::scatter(PathState& path, const SurfaceInteraction& 
 
 template <GuideSource Guides>
 float GuidedPathLoop<Guides>::misWeight(float pdf, float otherPdf) const noexcept {
+  if (!(otherPdf > 0)) return 1;
   return m_powerHeuristic ? guiding::powerHeuristic(1, pdf, 1, otherPdf)
                           : guiding::balanceHeuristic(1, pdf, 1, otherPdf);
 }

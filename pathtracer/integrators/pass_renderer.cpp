@@ -56,6 +56,7 @@ void PassRenderer::renderTile(const Tile& tile, const PathLoop& loop, SampleRang
         const Ray ray = m_scene.camera().generateRay(film, sampler.next2D());
         firstHit = {};
         targets.film.add(x, y, loop.trace(ray, sampler, worker));
+        targets.film.addUnguidedSquare(x, y, worker.unguidedSquare);
         ++worker.counters.paths;
         if (targets.aovs) targets.aovs->add(x, y, firstHit);
         if (records) worker.recorder.finish(*records);

@@ -23,6 +23,10 @@ struct PathWorker {
   guiding::PathRecorder recorder;
   bool records = false;          ///< feed `recorder`
   FirstHit* firstHit = nullptr;  ///< filled when not null
+  /// Of the last path: squared luminance that BSDF sampling alone would have counted for it, times the path's density
+  /// under BSDF sampling alone over its density here. Its mean is the second moment that a pixel would have without a
+  /// guide.
+  float unguidedSquare = 0;
 };
 
 /// Traces paths. Stateless and thread-safe, as long as no two threads share a worker.

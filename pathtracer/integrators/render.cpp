@@ -29,7 +29,7 @@ class RenderRun {
   guiding::IterationPlan nextPlan() const;
   bool learns(const guiding::IterationPlan& plan) const;
   void renderIteration(const guiding::IterationPlan& plan);
-  void closeIteration(const guiding::IterationPlan& plan);
+  void closeIteration(const guiding::IterationPlan& plan, bool guided);
   void endGuideIteration();
   guiding::IterationOutcome outcomeSoFar() const;
   std::vector<double> imageWeights() const;
@@ -48,7 +48,8 @@ class RenderRun {
   Film m_film;  ///< of the current iteration
   std::optional<AovFilm> m_aovs;
   IterationImages m_images;
-  std::unique_ptr<PathGuide> m_guide;                   ///< null: unguided
+  Image m_level;                       ///< sum of all samples so far, whatever their weight; only under a schedule
+  std::unique_ptr<PathGuide> m_guide;  ///< null: unguided
   std::optional<guiding::TrainingSchedule> m_schedule;  ///< none: the whole budget is one iteration
   std::vector<IterationReport> m_iterations;
 
@@ -73,7 +74,9 @@ RenderRun::RenderRun(const Scene& scene, const RenderSettings& settings, const R
   const AovSelection& aovs = settings.aovs;
   if (aovs.albedo || aovs.normal || aovs.depth) m_aovs.emplace(settings.width, settings.height, aovs);
   if (!settings.guiding || !scene.features().hasSmoothMaterials) return;
-  if (!pretrained) m_schedule.emplace(settings.guiding->schedule, settings.spp, settings.seconds);
+  guiding::ScheduleSettings schedule = settings.guiding->schedule;
+  if (settings.learnFinal) schedule.trialShare = 0;  // training for its own sake
+  if (!pretrained) m_schedule.emplace(schedule, settings.spp, settings.seconds);
   m_guide = pretrained ? pretrainedGuide(std::move(*pretrained), scene) : makeGuide(scene, *settings.guiding);
 }
 
@@ -100,11 +103,11 @@ guiding::IterationPlan RenderRun::nextPlan() const {
 }
 
 bool RenderRun::learns(const guiding::IterationPlan& plan) const {
-  return m_guide && (!plan.isFinal || m_settings.learnFinal);
+  return m_guide && plan.usesGuide && (!plan.isFinal || m_settings.learnFinal);
 }
 
 void RenderRun::renderIteration(const guiding::IterationPlan& plan) {
-  const bool hasGuide = m_guide && m_guide->hasGuide();
+  const bool hasGuide = m_guide && plan.usesGuide && m_guide->hasGuide();
   const std::unique_ptr<PathLoop> loop =
       hasGuide ? m_guide->makeLoop(m_scene, m_settings, m_passes.workers().count()) : unguidedLoop(m_scene, m_settings);
   const PassTargets targets{m_film, m_aovs ? &*m_aovs : nullptr, learns(plan) ? m_guide.get() : nullptr};
@@ -124,11 +127,11 @@ void RenderRun::renderIteration(const guiding::IterationPlan& plan) {
     m_passSeconds = m_clock.seconds() - passStart;
     m_clock.excluded([&] { callHooks(plan); });
   } while (m_sppOfIteration < plan.spp && !timeIsOver() && !stopped());
-  closeIteration(plan);
+  closeIteration(plan, hasGuide);
 }
 
-void RenderRun::closeIteration(const guiding::IterationPlan& plan) {
-  const guiding::IterationOutcome outcome = outcomeSoFar();
+void RenderRun::closeIteration(const guiding::IterationPlan& plan, bool guided) {
+  guiding::IterationOutcome outcome = outcomeSoFar();
   m_renderingEnd = m_clock.seconds();
   IterationReport report;
   report.index = plan.index;
@@ -136,12 +139,20 @@ void RenderRun::closeIteration(const guiding::IterationPlan& plan) {
   report.seconds = m_renderingEnd - m_iterationStart;
   report.trainSeconds = m_passes.trainSeconds() - m_trainSecondsReported;
   report.variance = outcome.variance;
-  m_iterations.push_back(report);
+  report.guided = guided;
   m_trainSecondsReported = m_passes.trainSeconds();
   m_iterationStart = m_renderingEnd;
   m_rejectedSamples += m_film.rejectedSamples();
 
-  if (m_schedule) m_schedule->report(plan, outcome);
+  if (m_schedule) {
+    addWeighted(m_level, m_film.mean(), double(m_sppOfIteration));
+    const Film::RelativeVariance variance = m_film.relativeVariance(m_level, double(m_sppDone));
+    report.relativeVariance = outcome.relativeVariance = variance.here;
+    report.unguidedRelativeVariance = outcome.unguidedRelativeVariance = variance.unguided;
+    outcome.tracingSeconds = report.seconds - report.trainSeconds;
+    m_schedule->report(plan, outcome);
+  }
+  m_iterations.push_back(report);
   m_images.add(m_film);
   m_images.forgetUnweighted(imageWeights());
 }

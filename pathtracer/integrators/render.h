@@ -58,7 +58,9 @@ struct IterationReport {
   double trainSeconds = 0;   ///< PathGuide::learn
   double freezeSeconds = 0;  ///< PathGuide::endIteration, where the iteration was learned from
   double variance = 0;       ///< as guiding::IterationOutcome
-  double weight = 0;         ///< in the final picture
+  double relativeVariance = 0, unguidedRelativeVariance = 0;  ///< the same; 0 without a schedule
+  double weight = 0;                                          ///< in the final picture
+  bool guided = false;                                        ///< false: no guide yet, or the schedule went without it
 };
 
 struct RenderCounters {

@@ -52,6 +52,7 @@ void visitMembers(Is<guiding::ScheduleSettings> auto& s, auto&& visitor) {
   visitor("combination", s.combination);
   visitor("combinedIterations", s.combinedIterations);
   visitor("trainingShare", s.trainingShare);
+  visitor("trialShare", s.trialShare);
 }
 
 void visitMembers(Is<OpenPglSettings> auto& s, auto&& visitor) {

@@ -10,6 +10,7 @@ namespace pt {
 namespace {
 
 struct OpenPglGuides {
+  static constexpr bool kGuides = true;
   using Distribution = OpenPglGuide;
 
   std::vector<std::unique_ptr<OpenPglDistribution>> distributions;  ///< one a worker

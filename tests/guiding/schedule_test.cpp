@@ -222,6 +222,70 @@ TEST_CASE("Training keeps to its share of the budget, and the whole budget is sp
     }
 }
 
+TEST_CASE("Guiding that does not pay is left after its trial, and guiding that pays goes on") {
+  struct Case {
+    double guided, unguided, predicted;  ///< relative variance of a sample
+    double guidedSeconds;                ///< of a sample; unguided 0.01
+    bool pays, paysBySamples;
+  };
+  for (const Case& c : {Case{1, 2, 2, 0.01, true, true}, Case{2, 1, 1, 0.01, false, false},
+                        Case{1, 1.5, 1.5, 0.02, false, true}, Case{2, 1.5, 1.5, 0.005, true, false},
+                        Case{1, 0.5, 10, 0.01, true, true},  // rare light that only guided samples have seen
+                        Case{0, 1, 1, 0.01, true, true}})    // unknown
+    for (const bool bySamples : {false, true}) {
+      ScheduleSettings s{1, SampleCombination::InverseVariance, 4, 1};
+      s.trialShare = 0.1f;
+      const std::int64_t budget = 1000;
+      TrainingSchedule schedule(s, bySamples ? budget : 0, bySamples ? 0 : 0.01 * double(budget));
+      double elapsed = 0;
+      const auto iterations = run(schedule, [&](const IterationPlan& plan) {
+        const double seconds = plan.usesGuide && plan.index > 0 ? c.guidedSeconds : 0.01;
+        IterationOutcome outcome;
+        outcome.spp = std::min(plan.spp, std::int64_t((0.01 * double(budget) - elapsed) / seconds) + 1);
+        if (bySamples) outcome.spp = plan.spp;
+        const double n = double(outcome.spp);
+        outcome.seconds = outcome.tracingSeconds = seconds * n;
+        elapsed += outcome.seconds;
+        outcome.variance = outcome.relativeVariance = (plan.usesGuide ? c.guided : c.unguided) / n;
+        outcome.unguidedRelativeVariance = (plan.usesGuide ? c.predicted : c.unguided) / n;
+        return outcome;
+      });
+      CAPTURE(c.guided, c.unguided, c.predicted, c.guidedSeconds, bySamples);
+
+      std::vector<std::size_t> without;
+      for (std::size_t i = 0; i < iterations.size(); ++i)
+        if (!iterations[i].plan.usesGuide) without.push_back(i);
+      REQUIRE(!without.empty());
+      const std::size_t trial = without[0];
+      CHECK(iterations[trial].plan.spp == iterations[trial - 1].plan.spp);
+      CHECK(!iterations[trial].plan.isFinal);
+      double before = 0;
+      for (std::size_t i = 0; i < trial; ++i)
+        before += bySamples ? double(iterations[i].outcome.spp) : iterations[i].outcome.seconds;
+      CHECK(before <= 0.1 * (bySamples ? double(budget) : 0.01 * double(budget)));
+      if (bySamples ? c.paysBySamples : c.pays) {
+        CHECK(without.size() == 1);
+        CHECK(iterations[trial + 1].plan.spp == 2 * iterations[trial - 1].plan.spp);
+        CHECK(iterations.size() > trial + 2);
+      } else {
+        CHECK(iterations.size() == trial + 2);
+        CHECK(!iterations.back().plan.usesGuide);
+        CHECK(iterations.back().plan.keepsDensity);
+      }
+      CHECK(iterations.back().plan.isFinal);
+      CHECK(sum(schedule.imageWeights()) == Approx(1));
+    }
+}
+
+TEST_CASE("Budgets too small for a trial have none") {
+  ScheduleSettings s{1, SampleCombination::InverseVariance, 4, 1};
+  s.trialShare = 0.1f;
+  for (const std::int64_t budget : {1, 2, 5, 9}) {
+    TrainingSchedule schedule(s, budget, 0);
+    for (const Planned& i : run(schedule, withVariance({1}))) CHECK(i.plan.usesGuide);
+  }
+}
+
 TEST_CASE("A time budget is spent, training counted in") {
   for (const auto combination :
        {SampleCombination::Discard, SampleCombination::Automatic, SampleCombination::InverseVariance})
@@ -267,6 +331,12 @@ TEST_CASE("Schedule settings out of range are refused by name") {
     s.trainingShare = bad;
     REQUIRE(!s.validate());
     CHECK_THAT(s.validate().error().text, Catch::Contains("trainingShare"));
+  }
+  for (const float bad : {-0.1f, 1.0f, std::numeric_limits<float>::quiet_NaN()}) {
+    s = {};
+    s.trialShare = bad;
+    REQUIRE(!s.validate());
+    CHECK_THAT(s.validate().error().text, Catch::Contains("trialShare"));
   }
   s = {};
   s.combination = SampleCombination(7);

@@ -25,11 +25,16 @@ struct ScheduleSettings {
   /// Training ends before the iteration with which it would exceed this share of the budget. Range: (0, 1]; at 1/2 and
   /// above the doubling alone decides: an iteration that would leave less than twice itself is the last.
   float trainingShare = 1;
+  /// Guiding must pay: about when this share of the budget is spent, an iteration's samples are repeated without the
+  /// guide, and if they are the more efficient ones, the rest of the budget goes without it too. Efficiency is told by
+  /// IterationOutcome::relativeVariance and the cost of tracing: seconds, or samples where the budget is in samples.
+  /// Range: [0, 1); 0: guiding is not put on trial.
+  float trialShare = 0;
 
   static ScheduleSettings mueller2017() { return {}; }
   static ScheduleSettings production2019() { return {1, SampleCombination::InverseVariance, 4, 1}; }
-  static ScheduleSettings recommended() { return production2019(); }
-  static ScheduleSettings boundProduct() { return {1, SampleCombination::InverseVariance, 4, 0.25f}; }
+  static ScheduleSettings recommended() { return {1, SampleCombination::InverseVariance, 4, 1, 0.1f}; }
+  static ScheduleSettings boundProduct() { return {1, SampleCombination::InverseVariance, 4, 0.25f, 0.1f}; }
   Status validate() const;
 };
 
@@ -40,7 +45,8 @@ struct IterationPlan {
       0;  ///< samples per pixel; 0: the budget is spent. The final one of a time budget runs until time is over.
   bool isFinal = false;  ///< no iteration follows, so its samples need not be recorded
   bool keepsDensity =
-      false;  ///< goes on with the density of the iteration before: do not call Field::endIteration() first
+      false;              ///< goes on with the density of the iteration before: do not call Field::endIteration() first
+  bool usesGuide = true;  ///< false: sample the BSDF alone in this iteration, and learn nothing from it
 };
 
 /// What an iteration came to, as the renderer measured it.
@@ -48,7 +54,14 @@ struct IterationOutcome {
   std::int64_t spp = 0;  ///< samples per pixel rendered
   double variance =
       0;  ///< mean over pixels of the unbiased variance of the iteration's pixel means, luminance; 0 if unknown
-  double seconds = 0;  ///< wall-clock, training included
+  double seconds = 0;         ///< wall-clock, training included
+  double tracingSeconds = 0;  ///< wall-clock, without learning and freezing
+  /// Mean over pixels of variance over squared level, where the level is that of all samples so far, made robust
+  /// against black pixels and outliers as the host sees fit; 0 if unknown. Only a schedule with a trial looks at it.
+  double relativeVariance = 0;
+  /// The same of as many samples without the guide, as the samples with it predict; 0 if unknown. It sees what samples
+  /// without the guide are too rare to show.
+  double unguidedRelativeVariance = 0;
 };
 
 /// Doubling iterations under a budget in samples per pixel or in seconds.
@@ -76,6 +89,10 @@ class TrainingSchedule {
   double remainingBudget() const;
   double costOf(const IterationOutcome& outcome) const;
   bool trainingShouldEnd() const;
+  const Iteration* trial() const;
+  bool trialIsDue(double spent, double expectedCost) const;
+  bool guidePays(const Iteration& trial) const;
+  double secondsOfLastGuided() const;
   std::vector<double> lastWeights() const;
   std::vector<double> inverseVarianceWeights() const;
 
