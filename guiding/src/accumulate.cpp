@@ -61,16 +61,18 @@ void learnRadiance(Field::State& state, const SampleRange& samples) {
   const DirectionMap map = state.settings.directionMap;
   const auto splats = partitionByLeaf<Splat>(
       samples, state.leaves.size(),
-      [&](const RadianceSample& s) { return isUsable(s) ? learningLeaf(state, s) : kNoLeaf; },
+      [&](const RadianceSample& s) {
+        if (!isUsable(s)) return kNoLeaf;
+        return learningLeaf(state, s) | (s.radiance > 0 ? 0 : kIdle);
+      },
       [&](const RadianceSample& s) {
         return Splat{toSquarePoint(sphereToSquare(map, s.direction)), double(s.radiance) / double(s.pdf)};
       });
   const bool box = state.settings.directionalFilter == DirectionalFilter::Box;
   parallelFor(state.leaves.size(), kLeafGrain, [&](std::size_t leaf) {
     SpatialLeaf& target = state.leaves[leaf];
-    target.sampleCount += splats.ofLeaf(leaf).size();
+    target.sampleCount += splats.ofLeaf(leaf).size() + splats.idleCount[leaf];
     for (const Splat& splat : splats.ofLeaf(leaf)) {
-      if (!(splat.value > 0)) continue;
       const double value = target.largestRecord > 0 ? std::min(splat.value, target.largestRecord) : splat.value;
       if (box)
         splatBox(target.building, map, splat.point, value);
@@ -92,7 +94,7 @@ void learnFraction(Field::State& state, const SampleRange& samples) {
   const auto records = partitionByLeaf<FractionRecord>(
       samples, state.leaves.size(),
       [&](const RadianceSample& s) {
-        if (!isUsable(s)) return kNoLeaf;
+        if (!(s.product > 0) || !isUsable(s)) return kNoLeaf;  // darkness says nothing of the fraction
         const std::uint32_t leaf = state.tree.leafAt(s.position);
         const std::uint32_t tree = state.densityOfLeaf[leaf];
         const bool rests = tree != GuidingDensity::kNoGuide && (tree & GuidingDensity::kResting);
@@ -111,17 +113,38 @@ void learnFraction(Field::State& state, const SampleRange& samples) {
 }
 
 void count(Field::State& state, const SampleRange& samples) {
-  samples.forEach(0, samples.size(), [&](std::size_t, const RadianceSample& s) {
-    if (!isUsable(s))
-      ++state.droppedSamples;
-    else
-      ++state.samples, state.outsideSamples += !state.tree.contains(s.position);
+  struct Counts {
+    std::uint64_t usable = 0, outside = 0;
+  };
+  constexpr std::size_t kRun = 1 << 14;
+  std::vector<Counts> ofRun((samples.size() + kRun - 1) / kRun);
+  parallelFor(ofRun.size(), 1, [&](std::size_t run) {
+    Counts counts;
+    samples.forEach(run * kRun, std::min((run + 1) * kRun, samples.size()), [&](std::size_t, const RadianceSample& s) {
+      if (!isUsable(s)) return;
+      ++counts.usable;
+      counts.outside += !state.tree.contains(s.position);
+    });
+    ofRun[run] = counts;
   });
+  state.droppedSamples += samples.size();
+  for (const Counts& counts : ofRun) {
+    state.samples += counts.usable;
+    state.droppedSamples -= counts.usable;
+    state.outsideSamples += counts.outside;
+  }
 }
 
 }  // namespace
 
+void emptyBuildingTrees(Field::State& state) {
+  if (!state.holdsLearned) return;
+  parallelFor(state.leaves.size(), kLeafGrain, [&](std::size_t leaf) { state.leaves[leaf].building.clear(); });
+  state.holdsLearned = false;
+}
+
 void accumulate(Field::State& state, std::span<const SampleBuffer> buffers) {
+  emptyBuildingTrees(state);
   const SampleSequence samples(buffers);
   for (std::size_t begin = 0; begin < samples.size(); begin += kBlock) {
     const SampleRange block(samples, begin, std::min(begin + kBlock, samples.size()));

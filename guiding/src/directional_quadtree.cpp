@@ -1,5 +1,7 @@
 #include "directional_quadtree.h"
 
+#include <cmath>
+
 namespace guiding {
 
 double DirectionalQuadtree::build() {
@@ -43,10 +45,26 @@ DirectionalQuadtree DirectionalQuadtree::refined(double total, double threshold,
       }
       next.m_nodes.emplace_back();
     }
-    next.m_nodes[i].links = links;
+    next.m_nodes[i] = {cell.sum, links};
   }
   next.m_nodes.shrink_to_fit();
   return next;
+}
+
+double DirectionalQuadtree::densityAt(SquarePoint point) const noexcept {
+  double total = 0;
+  for (const Node& node : m_nodes)
+    for (int c = 0; c < 4; ++c)
+      if (node.links.isLeaf(c)) total += node.sum[c];
+  if (!(total > 0)) return 0;
+
+  std::uint32_t index = 0;
+  for (int depth = 0;; ++depth) {
+    const Node& node = m_nodes[index];
+    const int cell = point.cellAt(depth);
+    if (node.links.isLeaf(cell)) return std::ldexp(node.sum[cell] / total, 2 * (depth + 1));
+    index = node.links.childIndex(cell);
+  }
 }
 
 }  // namespace guiding

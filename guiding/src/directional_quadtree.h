@@ -56,8 +56,14 @@ class DirectionalQuadtree {
 
   /// The tree to learn into next: cells with more than `threshold` of the total flux are subdivided, up to `maxDepth`;
   /// those with less are merged; below a former leaf the flux counts as evenly spread [Müller et al. 2017, Sec. 3.2].
-  /// All sums are zero. Requires build() and a positive total.
+  /// It still shows the flux. Requires build() and a positive total.
   DirectionalQuadtree refined(double total, double threshold, int maxDepth) const;
+
+  void clear() noexcept {
+    for (Node& node : m_nodes) node.sum = {};
+  }
+  /// Share of all flux per unit area of the square, at a point; 0 without flux.
+  double densityAt(SquarePoint point) const noexcept;
 
   const std::vector<Node>& nodes() const noexcept { return m_nodes; }
   std::vector<Node>& nodes() noexcept { return m_nodes; }

@@ -35,7 +35,7 @@ FrozenLeaf freezeLeaf(SpatialLeaf& leaf, const FieldSettings& settings) {
   learnFraction(leaf, settings, frozen.next);
   if (!(total > 0) || !std::isfinite(total)) {
     frozen.next.building = leaf.building;
-    for (auto& node : frozen.next.building.nodes()) node.sum = {};
+    frozen.next.building.clear();
     return frozen;
   }
   // A product is compensated where it is formed, at the shading point.
@@ -152,6 +152,7 @@ void become(Field::State& state, NextState&& next) noexcept {
   state.densityOfLeaf = std::move(next.densityOfLeaf);
   state.density.assign(std::move(next.trees), std::move(next.nodes));
   state.hasGuide = next.hasGuide;
+  state.holdsLearned = true;
   state.memoryCapReached |= next.memoryCapReached;
   ++state.iterations;
 }
@@ -159,6 +160,7 @@ void become(Field::State& state, NextState&& next) noexcept {
 }  // namespace
 
 void endIteration(Field::State& state, double spp) {
+  emptyBuildingTrees(state);
   std::vector<FrozenLeaf> frozen(state.leaves.size());
   parallelFor(frozen.size(), 1,
               [&](std::size_t leaf) { frozen[leaf] = freezeLeaf(state.leaves[leaf], state.settings); });

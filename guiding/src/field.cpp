@@ -80,6 +80,13 @@ GuidingDistribution Field::bind(const Imath::V3f& position, const LobeSet& lobes
   return guide;
 }
 
+float Field::learnedPdf(const Imath::V3f& position, const Imath::V3f& wi) const noexcept {
+  const State& s = *m_state;
+  if (!s.holdsLearned) return 0;
+  const SquarePoint point = toSquarePoint(sphereToSquare(s.settings.directionMap, wi));
+  return float(s.leaves[s.tree.leafAt(position)].building.densityAt(point) / (4 * kPiF));
+}
+
 bool Field::hasGuide() const noexcept {
   return m_state->hasGuide;
 }
@@ -116,6 +123,8 @@ FieldStats Field::stats() const noexcept {
     if (tree >= GuidingDensity::kResting) continue;
     const int depth = s.density.maxDepth(tree);
     ++stats.guidedLeaves;
+    const float fraction = s.density.tree(tree).bsdfSamplingFraction;
+    ++stats.fractionHistogram[std::min(stats.fractionHistogram.size() - 1, std::size_t(fraction * 10))];
     stats.maxQuadtreeDepth = std::max(stats.maxQuadtreeDepth, depth);
     stats.meanQuadtreeDepth += depth;
     stats.compensatedArea += s.density.tree(tree).emptyArea;

@@ -20,7 +20,7 @@ inline float initialFraction(const FieldSettings& settings) noexcept {
 
 /// One leaf of the spatial tree.
 struct SpatialLeaf {
-  DirectionalQuadtree building;   ///< learns during this iteration
+  DirectionalQuadtree building;   ///< learns during this iteration (see State::holdsLearned)
   std::uint64_t sampleCount = 0;  ///< of this iteration
   double largestRecord = 0;       ///< radiance / pdf above this is learned as this; 0: no limit
   float fraction = 0.5f;          ///< bsdfSamplingFraction of the frozen density
@@ -52,6 +52,8 @@ struct Field::State {
   std::uint64_t samples = 0, droppedSamples = 0, outsideSamples = 0;
   bool memoryCapReached = false;
   bool hasGuide = false;
+  bool holdsLearned = false;  ///< the building trees still show the iteration that ended; learning begins by emptying
+                              ///< them
 
   std::size_t memoryBytes() const noexcept;
 };

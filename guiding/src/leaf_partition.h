@@ -12,7 +12,8 @@ namespace guiding {
 template <class Item>
 struct LeafPartition {
   std::vector<Item> items;
-  std::vector<std::size_t> begin;  ///< of each leaf's items; then their number
+  std::vector<std::size_t> begin;        ///< of each leaf's items; then their number
+  std::vector<std::uint64_t> idleCount;  ///< by leaf: samples that make no item
 
   std::span<const Item> ofLeaf(std::size_t leaf) const noexcept {
     return {items.data() + begin[leaf], begin[leaf + 1] - begin[leaf]};
@@ -20,8 +21,11 @@ struct LeafPartition {
 };
 
 inline constexpr std::uint32_t kNoLeaf = ~0u;
+/// Flag of a leaf's index for a sample that is only counted.
+inline constexpr std::uint32_t kIdle = 1u << 31;
 
-/// Sorts what `itemOf(sample)` makes of each sample by `leafOf(sample)`, leaving out those of kNoLeaf.
+/// Sorts what `itemOf(sample)` makes of each sample by `leafOf(sample)`, leaving out those of kNoLeaf and counting
+/// those with kIdle.
 ///
 /// A counting sort over runs of consecutive samples. Runs are cut by the number of samples alone and the sort is
 /// stable, so the outcome does not depend on the number of threads.
@@ -37,16 +41,21 @@ LeafPartition<Item> partitionByLeaf(const SampleRange& samples, std::size_t leaf
 
   // Per run and leaf: first how many items, then where the next one goes.
   std::vector<std::vector<std::size_t>> slot(runs, std::vector<std::size_t>(leafCount, 0));
+  std::vector<std::vector<std::uint32_t>> idle(runs, std::vector<std::uint32_t>(leafCount, 0));
   std::vector<std::uint32_t> leaf(samples.size());
   parallelFor(runs, 1, [&](std::size_t run) {
     forEachOfRun(run, [&](std::size_t i, const RadianceSample& sample) {
       leaf[i] = leafOf(sample);
-      if (leaf[i] != kNoLeaf) ++slot[run][leaf[i]];
+      if (leaf[i] < kIdle)
+        ++slot[run][leaf[i]];
+      else if (leaf[i] != kNoLeaf)
+        ++idle[run][leaf[i] & ~kIdle];
     });
   });
 
   LeafPartition<Item> partition;
   partition.begin.resize(leafCount + 1);
+  partition.idleCount.resize(leafCount, 0);
   std::size_t position = 0;
   for (std::size_t l = 0; l < leafCount; ++l) {
     partition.begin[l] = position;
@@ -57,11 +66,13 @@ LeafPartition<Item> partitionByLeaf(const SampleRange& samples, std::size_t leaf
     }
   }
   partition.begin[leafCount] = position;
+  for (const std::vector<std::uint32_t>& ofRun : idle)
+    for (std::size_t l = 0; l < leafCount; ++l) partition.idleCount[l] += ofRun[l];
 
   partition.items.resize(position);
   parallelFor(runs, 1, [&](std::size_t run) {
     forEachOfRun(run, [&](std::size_t i, const RadianceSample& sample) {
-      if (leaf[i] != kNoLeaf) partition.items[slot[run][leaf[i]]++] = itemOf(sample);
+      if (leaf[i] < kIdle) partition.items[slot[run][leaf[i]]++] = itemOf(sample);
     });
   });
   return partition;

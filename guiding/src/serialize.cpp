@@ -173,6 +173,7 @@ std::vector<std::uint8_t> payloadOf(const Field::State& state) {
   out.put(state.droppedSamples);
   out.put(state.outsideSamples);
   out.put(std::uint8_t(state.memoryCapReached));
+  out.put(std::uint8_t(state.holdsLearned));
   out.put(std::uint64_t(state.tree.nodes().size()));
   for (const std::uint32_t word : state.tree.nodes()) out.put(word);
   out.put(std::uint64_t(state.leaves.size()));
@@ -199,6 +200,7 @@ std::unique_ptr<Field::State> stateOf(std::span<const std::uint8_t> payload) {
   state->droppedSamples = in.get<std::uint64_t>();
   state->outsideSamples = in.get<std::uint64_t>();
   state->memoryCapReached = in.get<std::uint8_t>() != 0;
+  state->holdsLearned = in.get<std::uint8_t>() != 0;
   if (state->iterations < 0) return nullptr;
 
   std::vector<std::uint32_t> words(in.getCount(sizeof(std::uint32_t)));

@@ -10,8 +10,11 @@ namespace guiding {
 /// sound.
 void accumulate(Field::State& state, std::span<const SampleBuffer> buffers);
 
-/// Freezes every building tree into the state's density, then refines both trees and empties them. If this throws, the
-/// state is as it was.
+/// Empties the building trees if they still show the iteration before.
+void emptyBuildingTrees(Field::State& state);
+
+/// Freezes every building tree into the state's density, then refines both trees. If this throws, the state is as it
+/// was, but for what the building trees still showed of the iteration before.
 void endIteration(Field::State& state, double spp);
 
 }  // namespace guiding

@@ -88,6 +88,7 @@ nlohmann::ordered_json toJson(const guiding::FieldStats& stats) {
           {"spatialLeaves", stats.spatialLeaves},
           {"guidedLeaves", stats.guidedLeaves},
           {"restingLeaves", stats.restingLeaves},
+          {"fractionHistogram", stats.fractionHistogram},
           {"maxSpatialDepth", stats.maxSpatialDepth},
           {"quadtreeNodes", stats.quadtreeNodes},
           {"maxQuadtreeDepth", stats.maxQuadtreeDepth},

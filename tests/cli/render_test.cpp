@@ -98,6 +98,27 @@ TEST_CASE("an interrupted render keeps what it has", "[cli]") {
   }
 }
 
+TEST_CASE("info --at draws what a field learned at a point beside what it samples there", "[cli]") {
+  const Workspace space;
+  space.write("scene.json", kScene);
+  REQUIRE(space.run({"train", "scene.json", "-o", "a.field", "--spp", "31"}).status == 0);
+  const Outcome drawn = space.run({"info", "a.field", "--at", "0,0,-0.1", "-o", "lobe.png"});
+  INFO(drawn.err);
+  CHECK(drawn.status == 0);
+  CHECK_THAT(drawn.out, Contains("learned"));
+  CHECK(space.read("lobe.png").size() > 1000);
+
+  CHECK_THAT(space.run({"info", "a.field", "--at", "0,90,0", "-o", "far.png"}).err, Contains("outside"));
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"info", "a.field", "--at", "0,0,0"},
+                                             {"info", "a.field", "-o", "x.png"},
+                                             {"info", "a.field", "--at", "0,0", "-o", "x.png"},
+                                             {"info", "a.field", "--at", "0,0,0", "-o", "x.jpg"},
+                                             {"info", "a.field", "--at", "0,0,0", "-o", "no/such/folder/x.png"},
+                                             {"info", "scene.json", "--at", "0,0,0", "-o", "x.png"}})
+    CHECK(space.run(wrong).status == 2);
+}
+
 TEST_CASE("train, info and render --field belong together", "[cli]") {
   const Workspace space;
   space.write("wall.json", kScene);

@@ -69,6 +69,7 @@ guiding::DirectionalQuadtree learn(guiding::DirectionMap map, Draw&& draw, doubl
     const double total = tree.build();
     if (round + 1 == rounds) return tree;
     tree = tree.refined(total, threshold, maxDepth);
+    tree.clear();
   }
 }
 

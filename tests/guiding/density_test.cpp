@@ -123,6 +123,7 @@ TEST_CASE("The same for each cell of the grid, and for a single deep one") {
         for (int round = 0; round < depth; ++round) {
           tree.splat(toSquarePoint(middle), 1);
           tree = tree.refined(tree.build(), 0.5, depth);
+          tree.clear();
         }
         tree.splat(toSquarePoint(middle), 1);
         tree.build();

@@ -18,6 +18,7 @@ DirectionalQuadtree uniformTree(int depth) {
   for (int level = 1; level < depth; ++level) {
     for (auto& node : tree.nodes()) node.sum = {1, 1, 1, 1};
     tree = tree.refined(tree.build(), 1e-9, level + 1);
+    tree.clear();
   }
   return tree;
 }
@@ -106,6 +107,7 @@ TEST_CASE("At the cap of depth a box is as small as its cell") {
   for (int round = 0; round < 20; ++round) {
     tree.splat(toSquarePoint(uv), 1);
     tree = tree.refined(tree.build(), 0.3, 20);
+    tree.clear();
   }
   const DirectionalQuadtree once = splatted(DirectionMap::Octahedral, tree, uv);
   CHECK(massIn(once) == Approx(1));

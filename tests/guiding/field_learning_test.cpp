@@ -191,6 +191,39 @@ TEST_CASE("An iteration of no or of unreal length is refused and changes nothing
   CHECK(bytesOf(field) == before);
 }
 
+TEST_CASE("What was learned can be looked at beside what is sampled") {
+  const Radiance light = [](const Imath::V3f&, const Imath::V3f& wi) { return wi.z > 0.8f ? 10.0f : 1.0f; };
+  for (const CompensationForm form : {CompensationForm::None, CompensationForm::WaterFilling}) {
+    FieldSettings settings;
+    settings.sTreeThreshold = 1e9;  // one leaf
+    settings.compensation.form = form;
+    Field field = train(settings, light, 4, 4000);
+    const Imath::V3f place(0.5f);
+    const GuidingDistribution guide = field.bind(place);
+    REQUIRE(guide);
+    Random random(5);
+    double integral = 0;
+    float largestDifference = 0;
+    constexpr int kDraws = 20'000;
+    for (int i = 0; i < kDraws; ++i) {
+      const Imath::V3f wi = uniformDirection(random);
+      const float learned = field.learnedPdf(place, wi);
+      integral += learned / kUniformPdf / kDraws;
+      largestDifference = std::max(largestDifference, std::abs(guide.pdf(wi) - learned));
+    }
+    CHECK(integral == Approx(1).margin(0.03));
+    // Cells that the refinement merged show their mean.
+    if (form == CompensationForm::None)
+      CHECK(largestDifference < 0.5f * kUniformPdf);
+    else
+      CHECK(largestDifference > kUniformPdf);
+
+    Random more(6);
+    REQUIRE(field.accumulate(record(field, light, 100, more)));
+    CHECK(field.learnedPdf(place, {0, 0, 1}) == 0);
+  }
+}
+
 TEST_CASE("Where nothing was learned there is no guide") {
   FieldSettings settings = FieldSettings::mueller2017();
   settings.sTreeThreshold = 200;
@@ -224,6 +257,24 @@ TEST_CASE("All records zero, one sample, no sample: no guide or a sound one") {
     CHECK(!field.hasGuide());
     CHECK(field.validate());
   }
+}
+
+TEST_CASE("The histogram of fractions counts every guided leaf once") {
+  FieldSettings settings = FieldSettings::production2019();
+  settings.sTreeThreshold = 100;
+  const Field field = train(
+      settings, [](const Imath::V3f& p, const Imath::V3f& wi) { return p.x < 0.5f    ? 1.0f
+                                                                       : wi.z > 0.9f ? 1.0f
+                                                                                     : 0.0f; },
+      5, 4000);
+  const FieldStats stats = field.stats();
+  std::size_t leaves = 0, bins = 0;
+  for (const std::size_t count : stats.fractionHistogram) {
+    leaves += count;
+    bins += count > 0;
+  }
+  CHECK(leaves == stats.guidedLeaves);
+  CHECK(bins > 1);
 }
 
 TEST_CASE("A learned fraction starts where the settings say") {

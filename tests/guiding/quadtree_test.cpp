@@ -21,6 +21,7 @@ DirectionalQuadtree uniformTree(int depth) {
   for (int level = 1; level < depth; ++level) {
     for (auto& node : tree.nodes()) node.sum = {1, 1, 1, 1};
     tree = tree.refined(tree.build(), 1e-9, level + 1);
+    tree.clear();
   }
   return tree;
 }
@@ -49,7 +50,7 @@ TEST_CASE("Evenly spread flux refines to 256 cells at one percent") {
   CHECK(leafCellsOf(next).size() == 256);
   for (const LeafCell& cell : leafCellsOf(next)) {
     CHECK(cell.size == 1.0 / 16);
-    CHECK(cell.mass == 0);
+    CHECK(cell.mass == 4.0 / 256);
   }
   CHECK(isSound(next, 20));
 }
@@ -60,6 +61,18 @@ TEST_CASE("Only cells above the threshold are subdivided") {
   CHECK(leafCellsOf(tree.refined(tree.build(), 0.16, 20)).size() == 7);  // a share of the threshold itself stays whole
   CHECK(leafCellsOf(tree.refined(tree.build(), 0.1599, 20)).size() == 25);  // 0.64 twice (16), 0.16 once (4 + 4), 0.04
   CHECK(leafCellsOf(tree.refined(tree.build(), 0.7, 20)).size() == 4);
+}
+
+TEST_CASE("A refined tree still shows the density that was learned") {
+  DirectionalQuadtree tree;
+  tree.nodes()[0].sum = {64, 16, 16, 4};
+  DirectionalQuadtree next = tree.refined(tree.build(), 0.16, 20);
+  for (const DirectionalQuadtree& shown : {tree, next}) {
+    CHECK(shown.densityAt(toSquarePoint({0.1f, 0.4f})) == Approx(4 * 0.64));
+    CHECK(shown.densityAt(toSquarePoint({0.9f, 0.9f})) == Approx(4 * 0.04));
+  }
+  next.clear();
+  CHECK(next.densityAt(toSquarePoint({0.1f, 0.4f})) == 0);
 }
 
 TEST_CASE("Cells that lost their flux are merged") {
@@ -79,6 +92,7 @@ TEST_CASE("The depth cap holds") {
     for (int round = 0; round < 12; ++round) {
       tree.splat(toSquarePoint({0.3f, 0.7f}), 1);
       tree = tree.refined(tree.build(), 0.001, cap);
+      tree.clear();
       CHECK(isSound(tree, cap));
     }
     CHECK(depthOf(tree) == cap);

@@ -54,6 +54,11 @@ class Field {
   /// lobes, world space, and compensated against them; "no guide" where the lobes reflect no light that was learned.
   GuidingDistribution bind(const Imath::V3f& position, const LobeSet& lobes) const noexcept;
 
+  /// Density of the unit vector wi that the last iteration learned around a point, before compensation and without
+  /// lobes, per solid angle: for looking at, not for sampling (a walk over the whole quadtree). 0 where nothing was
+  /// learned, and from the next accumulate() on.
+  float learnedPdf(const Imath::V3f& position, const Imath::V3f& wi) const noexcept;
+
   /// True once bind() can return a guide somewhere.
   bool hasGuide() const noexcept;
 

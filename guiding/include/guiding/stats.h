@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -16,6 +17,8 @@ struct FieldStats {
   std::size_t spatialLeaves = 0;
   std::size_t guidedLeaves = 0;   ///< leaves whose frozen density can be sampled
   std::size_t restingLeaves = 0;  ///< leaves that learned a density but offer none (FieldSettings::minimalGain)
+  /// Guided leaves by bsdfSamplingFraction: bin i holds [i/10, (i+1)/10), the last one also 1.
+  std::array<std::size_t, 10> fractionHistogram{};
   int maxSpatialDepth = 0;
   std::size_t quadtreeNodes = 0;  ///< of the frozen density
   int maxQuadtreeDepth = 0;
