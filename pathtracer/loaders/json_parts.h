@@ -28,7 +28,7 @@ ShapeDescription readShape(Context& context, const Node& node);
 
 LightDescription readLight(const Node& node);
 
-PerspectiveCamera readCamera(const Node& node);
+CameraDescription readCamera(const Node& node);
 FilmDescription readFilm(const Node& node);
 IntegratorDescription readIntegrator(const Node& node);
 void readSampler(Context& context, const Node& node);

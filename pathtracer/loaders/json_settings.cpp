@@ -4,14 +4,31 @@
 
 namespace pt::json {
 
-PerspectiveCamera readCamera(const Node& node) {
-  ObjectReader reader(node);
-  PerspectiveCamera camera;
-  reader.choice("type", {"perspective"}, 0);
-  camera.toWorld = readTransform(reader.find("transform"));
+namespace {
+
+void readLens(ObjectReader& reader, CameraDescription& camera) {
+  const auto aperture = reader.find("apertureRadius"), focus = reader.find("focusDistance");
+  if (focus && !aperture) focus->fail("needs a lens: give 'apertureRadius' too");
+  if (!aperture) return;
+  camera.apertureRadius = aperture->positive();
+  camera.focusDistance = reader.require("focusDistance").positive();
+}
+
+void readPerspective(ObjectReader& reader, CameraDescription& camera) {
   camera.fovDegrees = reader.positive("fov", camera.fovDegrees);
   if (camera.fovDegrees >= 180) reader.require("fov").fail("must be below 180 degrees");
   camera.fovAxis = static_cast<FovAxis>(reader.choice("fovAxis", {"x", "y", "smaller", "larger", "diagonal"}, 0));
+  readLens(reader, camera);
+}
+
+}  // namespace
+
+CameraDescription readCamera(const Node& node) {
+  ObjectReader reader(node);
+  CameraDescription camera;
+  camera.projection = static_cast<Projection>(reader.choice("type", {"perspective", "orthographic"}, 0));
+  camera.toWorld = readTransform(reader.find("transform"));
+  if (camera.projection == Projection::Perspective) readPerspective(reader, camera);
   camera.nearClip = reader.positive("nearClip", camera.nearClip);
   camera.farClip = reader.positive("farClip", camera.farClip);
   if (camera.farClip <= camera.nearClip) node.fail("farClip must be greater than nearClip");
@@ -46,20 +63,6 @@ void readSampler(Context& context, const Node& node) {
   context.scene.sampler = static_cast<SamplerKind>(reader.choice("type", {"independent", "sobol"}, 0));
   context.scene.spp = reader.integer("spp", context.scene.spp, 1);
   reader.finish();
-}
-
-LightDescription readLight(const Node& node) {
-  ObjectReader reader(node);
-  reader.require("type");
-  LightDescription light;
-  light.source = node.source();
-  if (reader.choice("type", {"point", "constant"}, 0) == 0) {
-    light.kind = PointLight{reader.vector("position", Vec3(0, 0, 0)), reader.color("intensity", Spectrum(1.0f))};
-  } else {
-    light.kind = ConstantEnvironment{reader.color("radiance", Spectrum(1.0f))};
-  }
-  reader.finish();
-  return light;
 }
 
 }  // namespace pt::json

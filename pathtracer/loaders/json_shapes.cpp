@@ -18,11 +18,14 @@ Kind readMesh(Context& context, ObjectReader& reader) {
   const Node name = reader.require("file");
   const auto path = context.search.find(name.string());
   if (!path) name.fail(fmt::format("there is no file '{}'", name.string()));
-  if (!isMeshFile(*path)) name.fail(fmt::format("'{}' is no mesh file; .obj, .ply, .gltf and .glb are", name.string()));
+  if (!isMeshFile(*path))
+    name.fail(fmt::format("'{}' is no mesh file; .obj, .ply, .gltf, .glb and .serialized are", name.string()));
   MeshFile file;
   file.path = *path;
   file.faceNormals = reader.boolean("faceNormals", false);
-  file.flipV = reader.boolean("flipV", lowerCaseEnding(*path) != ".ply");
+  const std::string ending = lowerCaseEnding(*path);
+  file.flipV = reader.boolean("flipV", ending != ".ply" && ending != ".serialized");
+  if (ending == ".serialized") file.shapeIndex = reader.integer("shapeIndex", 0, 0);
   return MeshShape{context.meshes.request(file, name.source()), file.faceNormals};
 }
 
@@ -45,6 +48,15 @@ Kind readSphere(Context&, ObjectReader& reader) {
   return SphereShape{reader.vector("center", Vec3(0, 0, 0)), reader.positive("radius", 1)};
 }
 
+Kind readCylinder(Context&, ObjectReader& reader) {
+  CylinderShape cylinder;
+  cylinder.p0 = reader.vector("p0", cylinder.p0);
+  cylinder.p1 = reader.vector("p1", cylinder.p1);
+  if (cylinder.p0 == cylinder.p1) reader.node().fail("p0 and p1 must differ");
+  cylinder.radius = reader.positive("radius", 1);
+  return cylinder;
+}
+
 Kind readInstance(Context& context, ObjectReader& reader) {
   const Node group = reader.require("group");
   return InstanceShape{readGroup(context, group.string(), group)};
@@ -57,6 +69,7 @@ const std::map<std::string, std::function<Kind(Context&, ObjectReader&)>> kReade
     {"rectangle", [](Context&, ObjectReader&) { return RectangleShape{}; }},
     {"disk", [](Context&, ObjectReader&) { return DiskShape{}; }},
     {"cube", [](Context&, ObjectReader&) { return CubeShape{}; }},
+    {"cylinder", readCylinder},
     {"instance", readInstance},
 };
 

@@ -13,6 +13,7 @@
 #include "loaders/mesh_join.h"
 #include "loaders/mesh_normals.h"
 #include "loaders/ply_header.h"
+#include "loaders/serialized_mesh.h"
 
 namespace pt {
 namespace {
@@ -119,27 +120,39 @@ const aiScene& import(Assimp::Importer& importer, const std::string& file) {
   return *scene;
 }
 
+TriangleMesh readByAssimp(const MeshFile& file) {
+  const std::string name = file.path.string();
+  if (lowerCaseEnding(file.path) == ".ply") checkPlyHeader(file.path);
+  Assimp::Importer importer;
+  const aiScene& scene = import(importer, name);
+  MeshCollector collector(file);
+  collector.addNode(scene, *scene.mRootNode, aiMatrix4x4());
+  return collector.take();
+}
+
+TriangleMesh readSerialized(const MeshFile& file) {
+  TriangleMesh mesh = readSerializedMesh(file.path, file.shapeIndex);
+  if (file.faceNormals) mesh.normals.clear();
+  if (file.flipV)
+    for (Vec2& uv : mesh.uvs) uv.y = 1 - uv.y;
+  return mesh;
+}
+
 }  // namespace
 
 bool isMeshFile(const std::filesystem::path& file) {
   const std::string ending = lowerCaseEnding(file);
-  return ending == ".obj" || ending == ".ply" || ending == ".gltf" || ending == ".glb";
+  return ending == ".obj" || ending == ".ply" || ending == ".gltf" || ending == ".glb" || ending == ".serialized";
 }
 
 TriangleMesh readMesh(const MeshFile& file) {
   const std::string name = file.path.string();
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file.path, ignored)) throw InputError(name + ": no such mesh file");
-  if (lowerCaseEnding(file.path) == ".ply") checkPlyHeader(file.path);
-  Assimp::Importer importer;
-  const aiScene& scene = import(importer, name);
-  MeshCollector collector(file);
-  collector.addNode(scene, *scene.mRootNode, aiMatrix4x4());
-  TriangleMesh mesh = collector.take();
-  importer.FreeScene();
+  TriangleMesh mesh = lowerCaseEnding(file.path) == ".serialized" ? readSerialized(file) : readByAssimp(file);
   if (mesh.triangles.empty()) throw InputError(name + ": the mesh has no triangles");
   checkFinite(mesh, name);
-  joinEqualVertices(mesh);
+  if (lowerCaseEnding(file.path) != ".serialized") joinEqualVertices(mesh);
   if (mesh.normals.empty() && !file.faceNormals) computeSmoothNormals(mesh);
   return mesh;
 }

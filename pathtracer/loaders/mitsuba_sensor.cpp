@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "loaders/mitsuba_parts.h"
@@ -11,7 +12,7 @@ namespace {
 const std::vector<std::string> kFovAxes = {"x", "y", "smaller", "larger", "diagonal"};  // in the order of FovAxis
 
 /// Field of view of a lens on 35 mm film (36 x 24 mm), over the diagonal.
-void readFocalLength(Reader& reader, PerspectiveCamera& camera) {
+void readFocalLength(Reader& reader, CameraDescription& camera) {
   std::string text = reader.string("focal_length", "50mm");
   if (text.ends_with("mm")) text.resize(text.size() - 2);
   const auto millimeters = parseNumber(text);
@@ -21,9 +22,7 @@ void readFocalLength(Reader& reader, PerspectiveCamera& camera) {
   camera.fovAxis = FovAxis::Diagonal;
 }
 
-PerspectiveCamera readPerspective(Context& context, Reader& reader) {
-  PerspectiveCamera camera;
-  camera.toWorld = reader.transform("to_world");
+void readFieldOfView(Context& context, Reader& reader, CameraDescription& camera) {
   if (reader.has("fov")) {
     camera.fovDegrees = reader.number("fov", 45);
     if (!(camera.fovDegrees > 0 && camera.fovDegrees < 180)) reader.fail("fov", "must lie between 0 and 180 degrees");
@@ -32,13 +31,38 @@ PerspectiveCamera readPerspective(Context& context, Reader& reader) {
     reader.ignore({"fov_axis"});
     readFocalLength(reader, camera);
   }
+  reader.ignore({"fov", "focal_length"});
+  if (reader.number("principal_point_offset_x", 0) != 0 || reader.number("principal_point_offset_y", 0) != 0)
+    context.leaveOut(reader.object().source, "a principal point offset is not supported");
+}
+
+void readLens(Reader& reader, CameraDescription& camera) {
+  if (!reader.has("aperture_radius"))
+    failAt(reader.object().source,
+           fmt::format("{} lacks the property '{}'", reader.title(), reader.spelled("aperture_radius")));
+  camera.apertureRadius = reader.number("aperture_radius", 0);
+  if (!(camera.apertureRadius >= 0)) reader.fail("aperture_radius", "must not be negative");
+  camera.focusDistance = reader.number("focus_distance", camera.farClip);
+  if (!(camera.focusDistance > 0)) reader.fail("focus_distance", "must be greater than 0");
+}
+
+/// Mitsuba's sensors that are cameras here.
+const std::vector<std::string> kCameras = {"perspective", "thinlens", "orthographic"};
+
+CameraDescription readCamera(Context& context, Reader& reader) {
+  CameraDescription camera;
+  camera.toWorld = reader.transform("to_world");
   camera.nearClip = reader.number("near_clip", 1e-2f);
   camera.farClip = reader.number("far_clip", 1e4f);
   if (!(camera.nearClip >= 0 && camera.farClip > camera.nearClip))
     reader.fail("near_clip", "must be positive and below the far clip");
-  reader.ignore({"focus_distance", "shutter_open", "shutter_close", "fov", "focal_length"});
-  if (reader.number("principal_point_offset_x", 0) != 0 || reader.number("principal_point_offset_y", 0) != 0)
-    context.leaveOut(reader.object().source, "a principal point offset is not supported");
+  const std::string& type = reader.object().type;
+  if (type == "orthographic")
+    camera.projection = Projection::Orthographic;
+  else
+    readFieldOfView(context, reader, camera);
+  if (type == "thinlens") readLens(reader, camera);
+  reader.ignore({"focus_distance", "shutter_open", "shutter_close"});
   return camera;
 }
 
@@ -102,12 +126,12 @@ void readSampler(Context& context, const Object& object) {
 
 void readSensor(Context& context, const Object& object) {
   try {
-    if (object.type != "perspective")
+    if (std::find(kCameras.begin(), kCameras.end(), object.type) == kCameras.end())
       throw UnsupportedError(object.source, fmt::format("sensor '{}' is not supported", object.type));
     Reader reader(context, object);
     for (const Object* film : reader.children("film")) readFilm(context, *film);
     for (const Object* sampler : reader.children("sampler")) readSampler(context, *sampler);
-    context.scene.camera = readPerspective(context, reader);
+    context.scene.camera = readCamera(context, reader);
     reader.finish();
   } catch (const UnsupportedError& error) {
     context.leaveOut(error, "left out");

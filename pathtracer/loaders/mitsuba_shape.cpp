@@ -9,16 +9,23 @@ namespace {
 
 using Kind = decltype(ShapeDescription::kind);
 
-Kind readMeshFile(Context& context, Reader& reader, bool flipsV) {
+enum class MeshFormat { Obj, Ply, Serialized };
+
+Kind readMeshFile(Context& context, Reader& reader, MeshFormat format) {
   MeshFile file;
   file.path = reader.file("filename");
+  if (format == MeshFormat::Serialized && lowerCaseEnding(file.path) != ".serialized")
+    reader.fail("filename", fmt::format("must end in .serialized: '{}'", file.path.string()));
   file.faceNormals = reader.boolean("face_normals", false);
-  file.flipV = reader.boolean("flip_tex_coords", flipsV);
+  file.flipV = reader.boolean("flip_tex_coords", format == MeshFormat::Obj);
   reader.ignore({"collapse", "load_materials", "srgb"});
   if (reader.has("max_smooth_angle"))
     context.leaveOut(reader.object().source, fmt::format("maxSmoothAngle of {} is not supported", reader.title()));
-  if (reader.has("shape_index"))
+  if (format == MeshFormat::Serialized) {
+    file.shapeIndex = reader.integer("shape_index", 0);
+  } else if (reader.has("shape_index")) {
     throw UnsupportedError(reader.object().source, fmt::format("shapeIndex of {} is not supported", reader.title()));
+  }
   return MeshShape{context.meshes.request(file, reader.object().source), file.faceNormals};
 }
 
@@ -27,6 +34,15 @@ Kind readSphere(Context&, Reader& reader) {
   sphere.center = reader.point("center", Vec3(0, 0, 0));
   sphere.radius = reader.number("radius", 1);
   return sphere;
+}
+
+Kind readCylinder(Context&, Reader& reader) {
+  CylinderShape cylinder;
+  cylinder.p0 = reader.point("p0", cylinder.p0);
+  cylinder.p1 = reader.point("p1", cylinder.p1);
+  if (cylinder.p0 == cylinder.p1) reader.fail("p1", "must differ from p0");
+  cylinder.radius = reader.number("radius", 1);
+  return cylinder;
 }
 
 Kind readInstance(Context& context, Reader& reader) {
@@ -38,12 +54,15 @@ Kind readInstance(Context& context, Reader& reader) {
 }
 
 const std::map<std::string, std::function<Kind(Context&, Reader&)>> kReaders = {
-    {"obj", [](Context& context, Reader& reader) { return readMeshFile(context, reader, true); }},
-    {"ply", [](Context& context, Reader& reader) { return readMeshFile(context, reader, false); }},
+    {"obj", [](Context& context, Reader& reader) { return readMeshFile(context, reader, MeshFormat::Obj); }},
+    {"ply", [](Context& context, Reader& reader) { return readMeshFile(context, reader, MeshFormat::Ply); }},
+    {"serialized",
+     [](Context& context, Reader& reader) { return readMeshFile(context, reader, MeshFormat::Serialized); }},
     {"rectangle", [](Context&, Reader&) { return RectangleShape{}; }},
     {"cube", [](Context&, Reader&) { return CubeShape{}; }},
     {"disk", [](Context&, Reader&) { return DiskShape{}; }},
     {"sphere", readSphere},
+    {"cylinder", readCylinder},
     {"instance", readInstance},
 };
 

@@ -1,6 +1,7 @@
 #include "scene/bake_shape.h"
 
 #include "core/error.h"
+#include "core/frame.h"
 #include "scene/scene_data.h"
 #include "scene/transform.h"
 
@@ -48,6 +49,36 @@ class Baker {
     disk.normal = transform.normal({0, 0, 1}).normalized() * (m_shape.flipNormals ? -1.0 : 1.0);
     result.bounds = disk.bounds();
     result.geometry = disk;
+  }
+
+  void operator()(const CylinderShape& shape) {
+    const Transform transform = toWorld();
+    const Imath::V3d base = transform.point(Imath::V3d(shape.p0)), end = transform.point(Imath::V3d(shape.p1));
+    const Imath::V3d localAxis = (Imath::V3d(shape.p1) - Imath::V3d(shape.p0)).normalized();
+    const Frame across{Vec3(localAxis)};
+    const Imath::V3d radii[2] = {transform.vector(Imath::V3d(across.s) * double(shape.radius)),
+                                 transform.vector(Imath::V3d(across.t) * double(shape.radius))};
+    Cylinder cylinder;
+    cylinder.base = base;
+    cylinder.length = (end - base).length();
+    cylinder.radius = std::sqrt(radii[0].length() * radii[1].length());
+    cylinder.axes[2] = (end - base).normalized();
+    if (!(cylinder.radius > 0 && cylinder.length > 0) || !std::isfinite(cylinder.radius + cylinder.length) ||
+        !isFinite(Vec3(base)))
+      throw InputError(m_where + ": a cylinder needs two finite ends that differ and a radius above 0");
+    const double tolerance = 1e-4 * cylinder.radius;
+    if (std::abs(radii[0].length() - radii[1].length()) > tolerance ||
+        std::abs(radii[0].dot(radii[1])) > tolerance * cylinder.radius ||
+        std::abs(radii[0].dot(cylinder.axes[2])) > tolerance || std::abs(radii[1].dot(cylinder.axes[2])) > tolerance)
+      throw InputError(
+          m_where +
+          ": the transform makes the cylinder elliptic or slanted; scale it alike across its axis, or use a "
+          "mesh");
+    cylinder.axes[0] = (radii[0] - cylinder.axes[2] * cylinder.axes[2].dot(radii[0])).normalized();
+    cylinder.axes[1] = cylinder.axes[2].cross(cylinder.axes[0]) * (transform.mirrors() ? -1.0 : 1.0);
+    cylinder.flipNormals = m_shape.flipNormals;
+    result.bounds = cylinder.bounds();
+    result.geometry = cylinder;
   }
 
   void operator()(const InstanceShape&) {}

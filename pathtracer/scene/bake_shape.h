@@ -10,7 +10,7 @@ namespace pt {
 
 /// A shape in the space it is traced in; monostate for an instance, which has no geometry of its own.
 struct BakedShape {
-  std::variant<std::monostate, Mesh, Sphere, Disk> geometry;
+  std::variant<std::monostate, Mesh, Sphere, Disk, Cylinder> geometry;
   std::size_t degenerateTriangles = 0;
   Box3 bounds;
 };

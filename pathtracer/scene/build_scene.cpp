@@ -5,10 +5,13 @@
 
 #include "core/error.h"
 #include "lights/constant_light.h"
+#include "lights/cylinder_light.h"
+#include "lights/directional_light.h"
 #include "lights/disk_light.h"
 #include "lights/mesh_light.h"
 #include "lights/point_light.h"
 #include "lights/sphere_light.h"
+#include "lights/spot_light.h"
 #include "scene/bake_shape.h"
 #include "scene/scene_data.h"
 #include "scene/scene_origin.h"
@@ -113,6 +116,8 @@ class SceneBuilder {
       surface.sphere = &m_data.spheres.emplace_back(*sphere);
     else if (auto* disk = std::get_if<Disk>(&baked.geometry))
       surface.disk = &m_data.disks.emplace_back(*disk);
+    else if (auto* cylinder = std::get_if<Cylinder>(&baked.geometry))
+      surface.cylinder = &m_data.cylinders.emplace_back(*cylinder);
     else
       return;
     if (shape.material != kNone) surface.material = m_data.materials[std::size_t(shape.material)].get();
@@ -133,8 +138,10 @@ class SceneBuilder {
       m_data.lights.push_back(std::make_unique<MeshLight>(*surface.mesh, radiance));
     else if (surface.sphere)
       m_data.lights.push_back(std::make_unique<SphereLight>(*surface.sphere, radiance));
-    else
+    else if (surface.disk)
       m_data.lights.push_back(std::make_unique<DiskLight>(*surface.disk, radiance));
+    else
+      m_data.lights.push_back(std::make_unique<CylinderLight>(*surface.cylinder, radiance));
     surface.light = m_data.lights.back().get();
   }
 
@@ -191,6 +198,45 @@ class SceneBuilder {
           std::make_unique<PointEmitter>(Vec3(Imath::V3d(light.position) - m_data.origin), light.intensity));
   }
 
+  void addLight(const SpotLight& light, const SourceLocation& source) {
+    const Vec3 axis = unitDirection(light.direction, source, "spot");
+    if (!isFinite(light.position) || !isEmission(light.intensity))
+      throw InputError(source +
+                       ": a spot light needs a finite position and an intensity that is finite and not negative");
+    if (!(light.beamDegrees >= 0 && light.beamDegrees <= light.cutoffDegrees && light.cutoffDegrees > 0 &&
+          light.cutoffDegrees <= 180))
+      throw InputError(source +
+                       ": a spot light needs 0 <= beam width <= cutoff angle <= 180 degrees, and a cutoff above 0");
+    if (isBlack(light.intensity)) {
+      ++m_data.blackEmitters;
+      return;
+    }
+    constexpr float kRadians = kPi / 180;
+    const SpotEmitter::Cone cone{axis, light.beamDegrees * kRadians, light.cutoffDegrees * kRadians, light.falloff};
+    m_data.lights.push_back(
+        std::make_unique<SpotEmitter>(Vec3(Imath::V3d(light.position) - m_data.origin), cone, light.intensity));
+  }
+
+  void addLight(const DirectionalLight& light, const SourceLocation& source) {
+    const Vec3 direction = unitDirection(light.direction, source, "directional");
+    if (!isEmission(light.irradiance))
+      throw InputError(source + ": a directional light's irradiance must be finite and not negative");
+    if (isBlack(light.irradiance))
+      ++m_data.blackEmitters;
+    else
+      m_data.lights.push_back(std::make_unique<DirectionalEmitter>(direction, light.irradiance, sceneRadius()));
+  }
+
+  static Vec3 unitDirection(const Vec3& direction, const SourceLocation& source, const char* kind) {
+    const Vec3 unit(Imath::V3d(direction).normalized());
+    if (!isFinite(unit) || unit.length2() == 0)
+      throw InputError(fmt::format("{}: a {} light needs a direction that is finite and not 0", source, kind));
+    return unit;
+  }
+
+  /// Of a sphere around all shapes.
+  double sceneRadius() const { return Imath::V3d(m_data.bounds.size()).length() / 2; }
+
   void addLight(const ConstantEnvironment& light, const SourceLocation& source) {
     if (m_data.environment) throw InputError(source + ": the scene has an environment already; keep one");
     if (!isEmission(light.radiance)) throw InputError(source + ": radiance must be finite and not negative");
@@ -198,8 +244,7 @@ class SceneBuilder {
       ++m_data.blackEmitters;
       return;
     }
-    const double radius = Imath::V3d(m_data.bounds.size()).length() / 2;
-    auto environment = std::make_unique<ConstantLight>(light.radiance, radius);
+    auto environment = std::make_unique<ConstantLight>(light.radiance, sceneRadius());
     m_data.environment = environment.get();
     m_data.lights.push_back(std::move(environment));
   }

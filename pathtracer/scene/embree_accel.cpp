@@ -24,7 +24,7 @@ struct SceneRelease {
 using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceRelease>;
 using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneRelease>;
 
-// ---------------------------------------------------------------- spheres and disks
+// ---------------------------------------------------------------- spheres, disks and cylinders
 
 RayD toDouble(const RTCRay& ray) {
   return {{ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}};

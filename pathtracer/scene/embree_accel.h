@@ -13,7 +13,7 @@
 namespace pt {
 
 /// A shape to trace; it outlives the accelerator.
-using Geometry = std::variant<const Mesh*, const Sphere*, const Disk*>;
+using Geometry = std::variant<const Mesh*, const Sphere*, const Disk*, const Cylinder*>;
 
 /// A copy of a group of shapes.
 struct GroupInstance {

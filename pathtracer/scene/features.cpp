@@ -55,6 +55,7 @@ void listGeometry(const SceneData& data, const SceneCounts& counts, Lists& lists
             "shading normals", "every mesh is flat");
   lists.add("spheres", data.spheres.size(), "spheres", "none");
   lists.add("disks", data.disks.size(), "disks", "none");
+  lists.add("cylinders", data.cylinders.size(), "cylinders", "none");
   lists.add("instances", data.instances.size(), "instancing", "no instances");
   if (data.degenerateTriangles > 0)
     lists.leaveOut(fmt::format("{} triangles", data.degenerateTriangles), "they have no area");
@@ -64,7 +65,8 @@ void listLights(const SceneData& data, Lists& lists) {
   const std::size_t area = countSurfaces(data, [](auto& s) { return s.light != nullptr; });
   const std::size_t environment = data.environment ? 1 : 0;
   lists.add("area lights", area, "area lights", "no shape emits");
-  lists.add("point lights", data.lights.size() - area - environment, "point lights", "none");
+  lists.add("point, spot and directional lights", data.lights.size() - area - environment,
+            "point, spot and directional lights", "none");
   lists.add("constant environment", environment, "environment light and its sampling", "no environment");
   if (environment) lists.leaveOut("environment sampling table", "the environment is constant");
   if (data.lights.empty()) lists.leaveOut("light sampling", "no light that can be sampled");
@@ -97,7 +99,7 @@ SceneCounts countScene(const SceneData& data) {
     counts.triangles += mesh.triangles.size();
     counts.memoryBytes += mesh.memoryBytes();
   }
-  counts.primitives = counts.triangles + data.spheres.size() + data.disks.size();
+  counts.primitives = counts.triangles + data.spheres.size() + data.disks.size() + data.cylinders.size();
   counts.instances = data.instances.size();
   counts.lights = data.lights.size();
   counts.materials = data.materials.size();

@@ -1,5 +1,8 @@
 #include "scene/quadrics.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace pt {
 namespace {
 
@@ -53,6 +56,40 @@ bool Disk::intersect(const RayD& ray, double tMin, double tMax, double& t) const
   t = (center - ray.origin).dot(normal) / ray.direction.dot(normal);
   if (!(t > tMin && t < tMax)) return false;
   return coordinates(ray.origin + ray.direction * t).length2() <= 1;
+}
+
+Box3 Cylinder::bounds() const {
+  const Imath::V3d half = axes[2] * (length / 2);
+  Imath::V3d extent;
+  for (int k = 0; k < 3; ++k)
+    extent[k] = std::abs(half[k]) + radius * std::sqrt(std::max(0.0, 1 - axes[2][k] * axes[2][k]));
+  return boundsAround(base + half, extent);
+}
+
+Imath::V3d Cylinder::outward(const Imath::V3d& p) const noexcept {
+  const Imath::V3d d = p - base;
+  return (d - axes[2] * axes[2].dot(d)).normalized();
+}
+
+bool Cylinder::intersect(const RayD& ray, double tMin, double tMax, double& t) const noexcept {
+  const Imath::V3d fromBase = ray.origin - base;
+  const double along = axes[2].dot(fromBase), rise = axes[2].dot(ray.direction);
+  // The circle that the axis sees.
+  const Imath::V3d o = fromBase - axes[2] * along, d = ray.direction - axes[2] * rise;
+  const double a = d.dot(d), b = o.dot(d), c = o.dot(o) - radius * radius;
+  if (a == 0) return false;
+  const double discriminant = radius * radius - (o - d * (b / a)).length2();  // see Sphere::intersect
+  if (!(discriminant >= 0)) return false;
+  const double q = -b - std::copysign(std::sqrt(a * discriminant), b);
+  if (q == 0) return false;  // starts on the surface along its tangent
+  double near = q / a, far = c / q;
+  if (near > far) std::swap(near, far);
+  const auto isOn = [&](double at) {
+    const double height = along + rise * at;
+    return at > tMin && at < tMax && height >= 0 && height <= length;
+  };
+  t = isOn(near) ? near : far;
+  return isOn(t);
 }
 
 }  // namespace pt

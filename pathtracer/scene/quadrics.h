@@ -11,9 +11,9 @@ struct RayD {
   Imath::V3d origin, direction;
 };
 
-/// Spheres and disks are Embree user geometry whose intersections are computed in double precision, not Embree's own
-/// primitives (float) and not tessellated: a ray that starts a rounding error off the surface is then told apart from
-/// one that starts on its other side, at every size and place, and no silhouette has a gap.
+/// Spheres, disks and cylinders are Embree user geometry whose intersections are computed in double precision, not
+/// Embree's own primitives (float) and not tessellated: a ray that starts a rounding error off the surface is then told
+/// apart from one that starts on its other side, at every size and place, and no silhouette has a gap.
 struct Sphere {
   Imath::V3d center{0, 0, 0};
   double radius = 1;
@@ -35,6 +35,21 @@ struct Disk {
   double area() const { return 3.14159265358979323846 * axes[0].cross(axes[1]).length(); }
   /// Coordinates (x, y) of a point of the plane.
   Imath::V2d coordinates(const Imath::V3d& p) const noexcept;
+  bool intersect(const RayD& ray, double tMin, double tMax, double& t) const noexcept;
+};
+
+/// The points at `radius` from an axis, without caps.
+struct Cylinder {
+  Imath::V3d base{0, 0, 0};                                ///< one end of the axis
+  Imath::V3d axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< unit; axes[2] leads to the other end
+  double length = 1, radius = 1;
+  bool flipNormals = false;
+
+  Box3 bounds() const;
+  double area() const { return 2 * 3.14159265358979323846 * radius * length; }
+  /// Unit, away from the axis.
+  Imath::V3d outward(const Imath::V3d& p) const noexcept;
+  /// First crossing with tMin < t < tMax.
   bool intersect(const RayD& ray, double tMin, double tMax, double& t) const noexcept;
 };
 

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "cameras/perspective.h"
+#include "cameras/make_camera.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/ray_offset.h"
@@ -18,10 +18,10 @@ void requireCamera(const SceneDescription& description) {
   }
 }
 
-std::unique_ptr<Camera> makeCamera(const SceneDescription& description, const Imath::V3d& origin) {
-  PerspectiveCamera camera = *description.camera;
+std::unique_ptr<Camera> makeCameraAround(const SceneDescription& description, const Imath::V3d& origin) {
+  CameraDescription camera = *description.camera;
   for (int k = 0; k < 3; ++k) camera.toWorld[3][k] = float(camera.toWorld[3][k] - origin[k]);
-  return std::make_unique<Perspective>(camera, description.film);
+  return makeCamera(camera, description.film);
 }
 
 SceneData build(const SceneDescription& description) {
@@ -40,7 +40,7 @@ double refine(float u, const Vec2& independent) noexcept {
 
 Scene::Scene(const SceneDescription& description)
     : m_data(std::make_unique<SceneData>(build(description))),
-      m_camera(makeCamera(description, m_data->origin)),
+      m_camera(makeCameraAround(description, m_data->origin)),
       m_features(listFeatures(*m_data)),
       m_counts(countScene(*m_data)) {}
 

@@ -19,6 +19,7 @@ struct SceneData {
   std::deque<Mesh> meshes;
   std::deque<Sphere> spheres;
   std::deque<Disk> disks;
+  std::deque<Cylinder> cylinders;
 
   std::vector<Surface> surfaces;             ///< of the world
   std::vector<std::vector<Surface>> groups;  ///< those that are instanced

@@ -129,6 +129,11 @@ struct RectangleShape {};
 struct DiskShape {};
 /// [-1,1]^3, normals outwards.
 struct CubeShape {};
+/// Without caps; normals outwards.
+struct CylinderShape {
+  Vec3 p0{0, 0, 0}, p1{0, 0, 1};  ///< ends of the axis
+  float radius = 1;
+};
 /// A copy of SceneDescription::groups[group].
 struct InstanceShape {
   int group = kNone;
@@ -136,7 +141,7 @@ struct InstanceShape {
 
 struct ShapeDescription {
   std::string name;
-  std::variant<MeshShape, SphereShape, RectangleShape, DiskShape, CubeShape, InstanceShape> kind;
+  std::variant<MeshShape, SphereShape, RectangleShape, DiskShape, CubeShape, CylinderShape, InstanceShape> kind;
   Matrix4 toWorld;  ///< row vectors: world = object * toWorld
   bool flipNormals = false;
   int material = kNone;                       ///< none: reflects nothing
@@ -156,11 +161,28 @@ struct PointLight {
   Vec3 position{0, 0, 0};
   Spectrum intensity{1.0f};  ///< power per unit solid angle
 };
+enum class SpotFalloff {
+  Angle,         ///< linear in the angle, as Mitsuba's
+  CosineSquared  ///< square of a ramp over the cosine, as glTF's
+};
+struct SpotLight {
+  Vec3 position{0, 0, 0};
+  Vec3 direction{0, 0, 1};   ///< of the beam's axis; any length but 0
+  Spectrum intensity{1.0f};  ///< power per unit solid angle, within the beam
+  float cutoffDegrees = 20;  ///< half angle of the cone that gets any light, at most 180
+  float beamDegrees = 15;    ///< half angle of the cone that gets all of it, at most the cutoff
+  SpotFalloff falloff = SpotFalloff::Angle;
+};
+/// Parallel light from infinitely far away.
+struct DirectionalLight {
+  Vec3 direction{0, 0, 1};    ///< in which the light travels; any length but 0
+  Spectrum irradiance{1.0f};  ///< of a surface that faces it
+};
 struct ConstantEnvironment {
   Spectrum radiance{1.0f};
 };
 struct LightDescription {
-  std::variant<PointLight, ConstantEnvironment> kind;
+  std::variant<PointLight, SpotLight, DirectionalLight, ConstantEnvironment> kind;
   SourceLocation source;
 };
 
@@ -168,11 +190,16 @@ struct LightDescription {
 
 enum class FovAxis { X, Y, Smaller, Larger, Diagonal };
 
-/// Looks down its own +z with +x to the image's left and +y up, as Mitsuba's.
-struct PerspectiveCamera {
+enum class Projection { Perspective, Orthographic };
+
+/// Looks down its own +z with +x to the image's left and +y up, as Mitsuba's. Lengths are in the camera's own space.
+struct CameraDescription {
   Matrix4 toWorld;
-  float fovDegrees = 45;
+  Projection projection = Projection::Perspective;  ///< orthographic: the picture's width is x from -1 to 1
+  float fovDegrees = 45;                            ///< of a perspective
   FovAxis fovAxis = FovAxis::X;
+  float apertureRadius = 0;  ///< of the thin lens of a perspective; 0: a pinhole
+  float focusDistance = 1;   ///< depth of the plane that a lens shows sharply
   float nearClip = 1e-4f;
   float farClip = std::numeric_limits<float>::infinity();
 };
@@ -200,7 +227,7 @@ struct IntegratorDescription {
 struct SceneDescription {
   std::string name;  ///< shown to people
   std::filesystem::path file;
-  std::optional<PerspectiveCamera> camera;
+  std::optional<CameraDescription> camera;
   FilmDescription film;
   SamplerKind sampler = SamplerKind::Independent;
   int spp = 64;

@@ -41,6 +41,15 @@ struct ObjectBounds {
   BoxD operator()(const RectangleShape&) const { return BoxD({-1, -1, 0}, {1, 1, 0}); }
   BoxD operator()(const DiskShape&) const { return BoxD({-1, -1, 0}, {1, 1, 0}); }
   BoxD operator()(const CubeShape&) const { return BoxD({-1, -1, -1}, {1, 1, 1}); }
+  BoxD operator()(const CylinderShape& shape) const {
+    const Imath::V3d extent(double(shape.radius));
+    BoxD box;
+    for (const Vec3& end : {shape.p0, shape.p1}) {
+      box.extendBy(Imath::V3d(end) - extent);
+      box.extendBy(Imath::V3d(end) + extent);
+    }
+    return box;
+  }
   BoxD operator()(const InstanceShape& shape) const {
     BoxD box;
     for (const auto& member : description.groups[std::size_t(shape.group)].shapes)

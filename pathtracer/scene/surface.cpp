@@ -77,6 +77,23 @@ LocalHit diskHit(const Disk& disk, const RayD& ray, float t, bool needsUvs) {
   return local;
 }
 
+/// Longitude over 2 pi and share of the length.
+Vec2 cylinderUv(const Cylinder& cylinder, const Imath::V3d& p, const Imath::V3d& n) {
+  double phi = std::atan2(n.dot(cylinder.axes[1]), n.dot(cylinder.axes[0]));
+  if (phi < 0) phi += 2 * double(kPi);
+  return {float(phi) * 0.5f * kInvPi, float(cylinder.axes[2].dot(p - cylinder.base) / cylinder.length)};
+}
+
+LocalHit cylinderHit(const Cylinder& cylinder, const RayD& ray, float t, bool needsUvs) {
+  const Imath::V3d met = ray.origin + ray.direction * double(t);
+  const Imath::V3d n = cylinder.outward(met);
+  LocalHit local;
+  local.p = cylinder.base + cylinder.axes[2] * cylinder.axes[2].dot(met - cylinder.base) + n * cylinder.radius;
+  local.ng = local.ns = cylinder.flipNormals ? -Vec3(n) : Vec3(n);
+  if (needsUvs) local.uv = cylinderUv(cylinder, local.p, n);
+  return local;
+}
+
 RayD localRay(const Instance* instance, const Ray& ray) {
   const Imath::V3d o(ray.origin), d(ray.direction);
   return instance ? RayD{instance->toWorld.inversePoint(o), instance->toWorld.inverseVector(d)} : RayD{o, d};
@@ -85,7 +102,8 @@ RayD localRay(const Instance* instance, const Ray& ray) {
 LocalHit localHit(const Surface& surface, const Instance* instance, const Ray& ray, const AccelHit& hit) {
   if (surface.mesh) return triangleHit(*surface.mesh, hit);
   if (surface.sphere) return sphereHit(*surface.sphere, localRay(instance, ray), hit.t, surface.needsUvs);
-  return diskHit(*surface.disk, localRay(instance, ray), hit.t, surface.needsUvs);
+  if (surface.disk) return diskHit(*surface.disk, localRay(instance, ray), hit.t, surface.needsUvs);
+  return cylinderHit(*surface.cylinder, localRay(instance, ray), hit.t, surface.needsUvs);
 }
 
 double norm(const Imath::V3d (&m)[3]) {
@@ -97,7 +115,8 @@ double norm(const Imath::V3d (&m)[3]) {
 Geometry Surface::geometry() const {
   if (mesh) return mesh;
   if (sphere) return sphere;
-  return disk;
+  if (disk) return disk;
+  return cylinder;
 }
 
 Instance::Instance(const Transform& transform, std::size_t groupIndex) : toWorld(transform), group(groupIndex) {

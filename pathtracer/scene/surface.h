@@ -11,6 +11,7 @@ struct Surface {
   const Mesh* mesh = nullptr;
   const Sphere* sphere = nullptr;
   const Disk* disk = nullptr;
+  const Cylinder* cylinder = nullptr;
   const Material* material = nullptr;
   const Light* light = nullptr;
   float lightPmf = 0;     ///< probability of choosing the light

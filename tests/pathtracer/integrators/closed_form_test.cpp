@@ -94,6 +94,25 @@ TEST_CASE("a point light is found by light sampling alone, without noise", "[int
   }
 }
 
+TEST_CASE("directional and spot lights on a floor, without noise", "[integrators]") {
+  pt::SceneDescription description = floor();
+  description.camera->fovDegrees = 0.05f;
+  description.lights.push_back({pt::DirectionalLight{{0, 3, -4}, pt::Spectrum(5.0f)}, "test"});
+  pt::RenderSettings settings = settingsFor(description, 4);
+  CHECK(meanLuminance(render(pt::Scene(description), settings).image) == Approx(0.5 / M_PI * 5 * 0.8).epsilon(1e-4));
+
+  const pt::SpotLight spot{.position = {0, 0, 2},
+                           .direction = {0, 0, -1},
+                           .intensity = pt::Spectrum(8.0f),
+                           .cutoffDegrees = 10,
+                           .beamDegrees = 10};
+  description.lights = {{spot, "test"}};
+  for (const bool guided : {false, true}) {
+    if (guided) settings.guiding = eagerGuiding(CompensationForm::WaterFilling);
+    CHECK(meanLuminance(render(pt::Scene(description), settings).image) == Approx(0.5 / M_PI * 8 / 4).epsilon(1e-4));
+  }
+}
+
 TEST_CASE("a constant environment over a floor", "[integrators]") {
   pt::SceneDescription description = floor();
   description.lights.push_back({pt::ConstantEnvironment{pt::Spectrum(2.0f)}, "test"});

@@ -5,8 +5,8 @@ namespace test {
 namespace {
 
 /// Looks along -z from this point, the square field of view `fovDegrees` wide.
-pt::PerspectiveCamera cameraLookingDown(const pt::Vec3& from, float fovDegrees) {
-  pt::PerspectiveCamera camera;
+pt::CameraDescription cameraLookingDown(const pt::Vec3& from, float fovDegrees) {
+  pt::CameraDescription camera;
   camera.toWorld = pt::Matrix4(1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, from.x, from.y, from.z, 1);
   camera.fovDegrees = fovDegrees;
   return camera;

@@ -95,6 +95,60 @@ TEST_CASE("A point light's irradiance is I cos / d^2") {
   CHECK(sampleIrradiance(Scene(description), {0, 0, 0}, {0, 0, 1}, 100).mean() == 0);
 }
 
+TEST_CASE("A cylinder light's irradiance beside it, and within it") {
+  // The normal looks at one end, at right angles to the axis [Howell, Catalog of Radiation Configuration Factors,
+  // B-31].
+  const auto besideEnd = [](double l, double h) {
+    const double x = (1 + h) * (1 + h) + l * l, y = (1 - h) * (1 - h) + l * l;
+    return std::atan(l / std::sqrt(h * h - 1)) / (kPiD * h) +
+           l / kPiD *
+               ((x - 2 * h) / (h * std::sqrt(x * y)) * std::atan(std::sqrt(x * (h - 1) / (y * (h + 1)))) -
+                std::atan(std::sqrt((h - 1) / (h + 1))) / h);
+  };
+  for (const double length : {0.5, 2.0})
+    for (const double distance : {1.5, 4.0}) {
+      CAPTURE(length, distance);
+      const CylinderShape cylinder{{0, 0, float(2 * distance)}, {0, float(2 * length), float(2 * distance)}, 2};
+      checkIrradiance(test::litBy(cylinder), {0, 0, 0}, {0, 0, 1}, kPiD * besideEnd(length, distance));
+    }
+  // From the middle of its axis, all but the open end is seen.
+  for (const float h : {0.5f, 1.0f, 3.0f})
+    checkIrradiance(test::litBy(CylinderShape{{0, 0, -h}, {0, 0, h}, 1}, Matrix4(), true), {0, 0, 0}, {0, 0, 1},
+                    kPiD * h * h / (1 + h * h));
+}
+
+TEST_CASE("A directional light's irradiance is E cos, unless something stands in its way") {
+  SceneDescription description = test::sceneOf(SphereShape{{0, -3, 4}, 0.1f});
+  description.lights.push_back({DirectionalLight{{0, -3, -4}, Spectrum(2)}, "test"});
+  checkIrradiance(description, {0, 0, 0}, {0, 0, 1}, 2 * 0.8);
+  CHECK(sampleIrradiance(Scene(description), {0, 0, 0}, {0, -1, 0}, 100).mean() == 0);
+  description.shapes.push_back(test::makeShape(SphereShape{{0, 3000, 4000}, 0.1f}));
+  CHECK(sampleIrradiance(Scene(description), {0, 0, 0}, {0, 0, 1}, 100).mean() == 0);
+}
+
+TEST_CASE("A spot light's irradiance falls off between beam and cutoff") {
+  for (const auto falloff : {SpotFalloff::Angle, SpotFalloff::CosineSquared}) {
+    SpotLight spot{
+        .position = {0, 0, 5}, .intensity = Spectrum(2), .cutoffDegrees = 60, .beamDegrees = 30, .falloff = falloff};
+    const float cutoff = kPi / 3, beam = kPi / 6;
+    for (const float angle : {0.0f, 0.5f, 0.6f, 0.9f}) {
+      CAPTURE(angle);
+      // It stands at a distance of 5 from the origin and its axis passes by at this angle.
+      spot.direction = Vec3(0, std::sin(angle), -std::cos(angle));
+      SceneDescription description = test::emptyScene();
+      description.lights.push_back({spot, "test"});
+      const float linear = (cutoff - angle) / (cutoff - beam);
+      const float ramp = (std::cos(angle) - std::cos(cutoff)) / (std::cos(beam) - std::cos(cutoff));
+      const float expected = angle <= beam ? 1 : falloff == SpotFalloff::Angle ? linear : ramp * ramp;
+      checkIrradiance(description, {0, 0, 0}, {0, 0, 1}, 2.0 / 25 * double(expected));
+    }
+    spot.direction = Vec3(0, std::sin(cutoff + 0.01f), -std::cos(cutoff + 0.01f));
+    SceneDescription description = test::emptyScene();
+    description.lights.push_back({spot, "test"});
+    CHECK(sampleIrradiance(Scene(description), {0, 0, 0}, {0, 0, 1}, 100).mean() == 0);
+  }
+}
+
 TEST_CASE("A constant environment of radiance 1 gives pi") {
   SceneDescription description = test::emptyScene();
   description.lights.push_back({ConstantEnvironment{Spectrum(1)}, "test"});

@@ -80,6 +80,10 @@ TEST_CASE("JSON: values out of range") {
   CHECK(errorOf(R"({"camera": {"fov": 1e300}})") == "s.json#/camera/fov: is too large");
   CHECK(errorOf(R"({"camera": {"nearClip": 5, "farClip": 4}})") ==
         "s.json#/camera: farClip must be greater than nearClip");
+  CHECK(errorOf(R"({"camera": {"focusDistance": 1}})") ==
+        "s.json#/camera/focusDistance: needs a lens: give 'apertureRadius' too");
+  CHECK(errorOf(R"({"camera": {"apertureRadius": 1}})") == "s.json#/camera: lacks the key 'focusDistance'");
+  CHECK(errorOf(R"({"camera": {"type": "orthographic", "fov": 30}})").starts_with("s.json#/camera/fov: unknown key"));
   CHECK(errorOf(R"({"integrator": {"maxDepth": 0}})") ==
         "s.json#/integrator/maxDepth: must be -1 (unbounded) or at least 1");
   CHECK(shapeError(R"({"type": "torus", "material": {"type": "diffuse"}, "majorSegments": 2})") ==
@@ -140,12 +144,22 @@ TEST_CASE("JSON: shapes, groups and lights that cannot work") {
   CHECK(errorOf(R"({"groups": {"g": [{"type": "instance", "group": "g"}]}})") ==
         "s.json#/groups/g/0: a group cannot hold instances");
   CHECK(errorOf(R"({"lights": [{"position": [0, 0, 0]}]})") == "s.json#/lights/0: lacks the key 'type'");
-  CHECK(errorOf(R"({"lights": [{"type": "spot"}]})").starts_with("s.json#/lights/0/type: 'spot' is not known here"));
+  CHECK(errorOf(R"({"lights": [{"type": "spott"}]})") ==
+        "s.json#/lights/0/type: 'spott' is no known light; did you mean 'spot'?");
+  CHECK(errorOf(R"({"lights": [{"type": "directional"}]})") == "s.json#/lights/0: lacks the key 'direction'");
+  CHECK(errorOf(R"({"lights": [{"type": "directional", "direction": [0, 0, 0]}]})") ==
+        "s.json#/lights/0/direction: must not be [0, 0, 0]");
+  CHECK(errorOf(R"({"lights": [{"type": "spot", "direction": [0, 0, 1], "cutoffAngle": 200}]})") ==
+        "s.json#/lights/0/cutoffAngle: must be at most 180 degrees");
+  CHECK(errorOf(R"({"lights": [{"type": "spot", "direction": [0, 0, 1], "cutoffAngle": 10, "beamWidth": 11}]})") ==
+        "s.json#/lights/0/beamWidth: must lie between 0 and the cutoff angle");
+  CHECK(shapeError(R"({"type": "cylinder", "p1": [0, 0, 0], "emission": 1})") ==
+        "s.json#/shapes/0: p0 and p1 must differ");
 
   SceneFolder folder;
   folder.write("s.txt", "x");
   CHECK(folder.errorOf("s.json", R"({"shapes": [{"type": "mesh", "file": "s.txt", "emission": 1}]})") ==
-        "s.json#/shapes/0/file: 's.txt' is no mesh file; .obj, .ply, .gltf and .glb are");
+        "s.json#/shapes/0/file: 's.txt' is no mesh file; .obj, .ply, .gltf, .glb and .serialized are");
   folder.write("empty.obj", "# nothing but vertices\nv 0 0 0\nv 1 0 0\n");
   CHECK(folder.errorOf("s.json", R"({"shapes": [{"type": "mesh", "file": "empty.obj", "emission": 1}]})") ==
         "s.json#/shapes/0/file: empty.obj: the mesh has no triangles");

@@ -59,6 +59,16 @@ TEST_CASE("camera, film, integrator and sampler") {
   CHECK(scene.spp == 16);
 }
 
+TEST_CASE("a camera with a lens, and one without perspective") {
+  const auto lens = load(R"({"camera": {"apertureRadius": 0.1, "focusDistance": 3}})").camera;
+  CHECK(lens->projection == Projection::Perspective);
+  CHECK(lens->apertureRadius == 0.1f);
+  CHECK(lens->focusDistance == 3);
+  const auto flat = load(R"({"camera": {"type": "orthographic", "transform": {"scale": 2}}})").camera;
+  CHECK(flat->projection == Projection::Orthographic);
+  CHECK(flat->toWorld[0][0] == 2);
+}
+
 TEST_CASE("transforms: steps, lists of steps, matrices") {
   const Vec3 p(1, 2, 3);
   CHECK(isNear(apply(transformOf("[]"), p), p));
@@ -123,9 +133,16 @@ TEST_CASE("shapes, groups and lights") {
                {"type": "instance", "group": "pair", "transform": {"translate": [0, 1, 0]}},
                {"type": "instance", "group": "pair"},
                {"type": "rectangle", "emission": [1, 2, 3], "flipNormals": true},
-               {"type": "torus", "majorRadius": 3, "majorSegments": 8, "minorSegments": 4, "material": {"type": "diffuse"}}],
-    "lights": [{"type": "point", "position": [1, 2, 3], "intensity": 5}, {"type": "constant", "radiance": [0.5, 0.5, 1]}]})");
-  REQUIRE(scene.shapes.size() == 5);
+               {"type": "torus", "majorRadius": 3, "majorSegments": 8, "minorSegments": 4, "material": {"type": "diffuse"}},
+               {"type": "cylinder", "p0": [1, 0, 0], "p1": [1, 5, 0], "radius": 2, "material": {"type": "diffuse"}}],
+    "lights": [{"type": "point", "position": [1, 2, 3], "intensity": 5}, {"type": "constant", "radiance": [0.5, 0.5, 1]},
+               {"type": "spot", "position": [0, 1, 0], "direction": [0, 0, 2], "intensity": 7, "cutoffAngle": 40, "falloff": "cosineSquared"},
+               {"type": "directional", "direction": [0, -2, 0], "irradiance": 3}]})");
+  REQUIRE(scene.shapes.size() == 6);
+  const auto& cylinder = std::get<CylinderShape>(scene.shapes[5].kind);
+  CHECK(cylinder.p0 == Vec3(1, 0, 0));
+  CHECK(cylinder.p1 == Vec3(1, 5, 0));
+  CHECK(cylinder.radius == 2);
   CHECK(scene.shapes[0].name == "thing");
   CHECK(meshOf(scene.shapes[0]).normals.empty());
   CHECK(meshOf(scene.shapes[0]).uvs.at(0).y == 0.75f);
@@ -138,7 +155,17 @@ TEST_CASE("shapes, groups and lights") {
   CHECK(scene.shapes[3].flipNormals);
   CHECK(folder.withoutFolder(scene.shapes[3].source) == "scene.json#/shapes/3");
   CHECK(meshOf(scene.shapes[4]).triangles.size() == 64);
-  REQUIRE(scene.lights.size() == 2);
+  REQUIRE(scene.lights.size() == 4);
   CHECK(std::get<PointLight>(scene.lights[0].kind).intensity.x == 5);
   CHECK(std::get<ConstantEnvironment>(scene.lights[1].kind).radiance.z == 1);
+  const auto& spot = std::get<SpotLight>(scene.lights[2].kind);
+  CHECK(spot.position == Vec3(0, 1, 0));
+  CHECK(spot.direction == Vec3(0, 0, 2));
+  CHECK(spot.intensity.x == 7);
+  CHECK(spot.cutoffDegrees == 40);
+  CHECK(spot.beamDegrees == 30);
+  CHECK(spot.falloff == SpotFalloff::CosineSquared);
+  const auto& sun = std::get<DirectionalLight>(scene.lights[3].kind);
+  CHECK(sun.direction == Vec3(0, -2, 0));
+  CHECK(sun.irradiance.y == 3);
 }

@@ -64,6 +64,23 @@ TEST_CASE("sensor, film, filter and sampler in both spellings") {
   CHECK(other.film.filter == ReconstructionFilter::Tent);
 }
 
+TEST_CASE("sensors with a lens, and without perspective") {
+  const auto lens = load(
+      R"(<sensor type="thinlens"><float name="aperture_radius" value="0.5"/><float name="focus_distance" value="7"/></sensor>)");
+  CHECK(lens.camera->projection == Projection::Perspective);
+  CHECK(lens.camera->apertureRadius == 0.5f);
+  CHECK(lens.camera->focusDistance == 7);
+  const auto flat =
+      load(R"(<sensor type="orthographic"><transform name="toWorld"><scale value="3"/></transform></sensor>)", "0.6.0");
+  CHECK(flat.camera->projection == Projection::Orthographic);
+  CHECK(flat.camera->toWorld[1][1] == 3);
+  SceneFolder folder;
+  CHECK(folder.errorOf("a.xml", mitsubaScene("<sensor type=\"thinlens\"/>", "0.6.0")) ==
+        "a.xml:2: sensor 'thinlens' lacks the property 'apertureRadius'");
+  CHECK(folder.errorOf("a.xml", mitsubaScene("<sensor type=\"fisheye\"/>"))
+            .starts_with("a.xml:2: sensor 'fisheye' is not supported"));
+}
+
 TEST_CASE("integrators: path, its relatives, direct light, wrappers") {
   const auto path =
       load(R"(<integrator type="path"><integer name="maxDepth" value="10"/><integer name="rrDepth" value="7"/>
@@ -92,13 +109,39 @@ TEST_CASE("lights") {
   const auto scene = load(
       R"(<emitter type="point"><point name="position" x="1" y="2" z="3"/><rgb name="intensity" value="300"/></emitter>
     <emitter type="point"><transform name="to_world"><translate x="5"/></transform></emitter>
-    <emitter type="constant"><rgb name="radiance" value="0.1, 0.2, 0.3"/></emitter>)");
-  REQUIRE(scene.lights.size() == 3);
+    <emitter type="constant"><rgb name="radiance" value="0.1, 0.2, 0.3"/></emitter>
+    <emitter type="spot"><transform name="to_world"><translate x="5"/></transform><rgb name="intensity" value="6"/>
+      <float name="cutoff_angle" value="40"/></emitter>
+    <emitter type="spot"><float name="beamWidth" value="1"/></emitter>
+    <emitter type="directional"><vector name="direction" x="0" y="-1" z="1"/><rgb name="irradiance" value="2"/></emitter>
+    <emitter type="directional"><transform name="to_world"><rotate x="1" angle="90"/></transform></emitter>)");
+  REQUIRE(scene.lights.size() == 7);
   const auto& point = std::get<PointLight>(scene.lights[0].kind);
   CHECK(isNear(point.position, Vec3(1, 2, 3)));
   CHECK(point.intensity.x == 300);
   CHECK(isNear(std::get<PointLight>(scene.lights[1].kind).position, Vec3(5, 0, 0)));
   CHECK(isNear(std::get<ConstantEnvironment>(scene.lights[2].kind).radiance, Vec3(0.1f, 0.2f, 0.3f)));
+  const auto& spot = std::get<SpotLight>(scene.lights[3].kind);
+  CHECK(spot.position == Vec3(5, 0, 0));
+  CHECK(spot.direction == Vec3(0, 0, 1));
+  CHECK(spot.intensity.x == 6);
+  CHECK(spot.cutoffDegrees == 40);
+  CHECK(spot.beamDegrees == 30);  // three quarters
+  CHECK(spot.falloff == SpotFalloff::Angle);
+  CHECK(std::get<SpotLight>(scene.lights[4].kind).cutoffDegrees == 20);
+  CHECK(std::get<SpotLight>(scene.lights[4].kind).beamDegrees == 1);
+  CHECK(std::get<DirectionalLight>(scene.lights[5].kind).direction == Vec3(0, -1, 1));
+  CHECK(std::get<DirectionalLight>(scene.lights[5].kind).irradiance.x == 2);
+  CHECK(isNear(std::get<DirectionalLight>(scene.lights[6].kind).direction, Vec3(0, -1, 0)));
+
+  SceneFolder folder;
+  CHECK(folder.errorOf("a.xml",
+                       mitsubaScene(R"(<emitter type="spot"><float name="cutoff_angle" value="0"/></emitter>)")) ==
+        "a.xml:2: cutoff_angle of emitter 'spot' must be greater than 0, and at most 180 degrees");
+  CHECK(folder
+            .errorOf("a.xml", mitsubaScene(R"(<emitter type="directional"><vector name="direction" value="0 0 1"/>
+    <transform name="to_world"/></emitter>)"))
+            .starts_with("a.xml:2: direction of emitter 'directional' excludes to_world"));
 }
 
 TEST_CASE("analytic shapes, their materials and emission") {
@@ -106,8 +149,9 @@ TEST_CASE("analytic shapes, their materials and emission") {
       R"(<shape type="sphere" id="ball"><point name="center" value="1, 2, 3"/><float name="radius" value="4"/><boolean name="flip_normals" value="true"/></shape>
     <shape type="rectangle"><emitter type="area"><rgb name="radiance" value="17, 12, 4"/></emitter></shape>
     <shape type="disk"><bsdf type="diffuse"/><emitter type="area"/></shape>
-    <shape type="cube"/>)");
-  REQUIRE(scene.shapes.size() == 4);
+    <shape type="cube"/>
+    <shape type="cylinder"><point name="p1" value="0, 0, 3"/><float name="radius" value="2"/></shape>)");
+  REQUIRE(scene.shapes.size() == 5);
   const auto& sphere = std::get<SphereShape>(scene.shapes[0].kind);
   CHECK(isNear(sphere.center, Vec3(1, 2, 3)));
   CHECK(sphere.radius == 4);
@@ -120,6 +164,10 @@ TEST_CASE("analytic shapes, their materials and emission") {
   CHECK(scene.shapes[2].material != kNone);
   CHECK(scene.shapes[2].emission->value.x == 1);
   CHECK(std::holds_alternative<CubeShape>(scene.shapes[3].kind));
+  const auto& cylinder = std::get<CylinderShape>(scene.shapes[4].kind);
+  CHECK(cylinder.p0 == Vec3(0, 0, 0));
+  CHECK(cylinder.p1 == Vec3(0, 0, 3));
+  CHECK(cylinder.radius == 2);
 }
 
 TEST_CASE("instances share their group") {

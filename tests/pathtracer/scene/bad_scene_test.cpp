@@ -65,6 +65,30 @@ TEST_CASE("Spheres without a size are refused") {
   checkRefused(test::sceneOf(SphereShape{{0, kNan, 0}, 1}), "centre");
 }
 
+TEST_CASE("Cylinders without a size, slanted or elliptic ones are refused") {
+  checkRefused(test::sceneOf(CylinderShape{{0, 0, 0}, {0, 0, 0}, 1}), "cylinder");
+  checkRefused(test::sceneOf(CylinderShape{{0, 0, 0}, {0, 0, 1}, 0}), "radius above 0");
+  checkRefused(test::sceneOf(CylinderShape{{0, 0, 0}, {0, 0, kInfinity}, 1}), "finite ends");
+  checkRefused(test::sceneOf(CylinderShape{}, test::scaling({1, 2, 1})), "elliptic");
+  Matrix4 slanted;
+  slanted[2][0] = 0.5f;
+  checkRefused(test::sceneOf(CylinderShape{}, slanted), "slanted");
+  CHECK_NOTHROW(Scene(test::sceneOf(CylinderShape{}, test::scaling({2, 2, 5}))));
+}
+
+TEST_CASE("Spot and directional lights that cannot be are refused") {
+  const auto checkLight = [](auto light, const std::string& problem) {
+    auto description = test::sceneOf(RectangleShape{});
+    description.lights.push_back({light, "test.json#/lights/0"});
+    CHECK_THROWS_WITH(Scene(description), Contains("test.json#/lights/0") && Contains(problem));
+  };
+  checkLight(DirectionalLight{{0, 0, 0}, Spectrum(1.0f)}, "direction");
+  checkLight(DirectionalLight{{0, 0, 1}, Spectrum(-1.0f)}, "irradiance");
+  checkLight(SpotLight{.intensity = Spectrum(kNan)}, "intensity");
+  checkLight(SpotLight{.cutoffDegrees = 10, .beamDegrees = 11}, "beam width");
+  checkLight(SpotLight{.direction = {0, 0, 0}}, "direction");
+}
+
 TEST_CASE("Emission must be a radiance") {
   checkRefused(withEmission(Spectrum(1, -1, 1)), "radiance must be finite");
   checkRefused(withEmission(Spectrum(1, kNan, 1)), "radiance must be finite");

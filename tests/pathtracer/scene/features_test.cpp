@@ -39,7 +39,7 @@ TEST_CASE("A scene tells what it contains") {
   CHECK(features.hasEnvironment);
   CHECK(lists(features.present, "triangles (14)"));
   CHECK(lists(features.present, "area lights (1)"));
-  CHECK(lists(features.present, "point lights (1)"));
+  CHECK(lists(features.present, "point, spot and directional lights (1)"));
   CHECK(lists(features.present, "constant environment (1)"));
   CHECK(lists(features.leftOut, "environment sampling table (the environment is constant)"));
   CHECK(scene.counts().triangles == 14);

@@ -102,6 +102,33 @@ TEST_CASE("Spheres, disks, rectangles and cubes lie where they are described") {
   }
 }
 
+TEST_CASE("A cylinder lies where it is described, is open at its ends and hollow") {
+  // Along y from -2 to 2 in the world, radius 3.
+  auto description = test::sceneOf(
+      CylinderShape{{0, 0, -1}, {0, 0, 1}, 1.5f},
+      test::scaling(Vec3(2)) * Matrix4().setAxisAngle(Vec3(1, 0, 0), kPi / 2) * test::translation({0, 0, 10}));
+  const Scene scene(description);
+  auto si = hitOf(description, {0, 1.9f, 0}, {0, 0, 1});
+  checkVector(si.p, {0, 1.9f, 7});
+  checkVector(si.ng, {0, 0, -1});
+  CHECK(si.distance == Approx(7));
+  CHECK_FALSE(scene.occluded({{0, 2.1f, 0}, {0, 0, 1}}));
+  CHECK_FALSE(scene.occluded({{3.1f, 0, 0}, {0, 0, 1}}));
+  CHECK_FALSE(scene.occluded({{1, -9, 10}, {0, 1, 0}}));  // through both ends
+  // Over the rim of the near end to the far wall's inside.
+  si = hitOf(description, {0, 3, 6}, {0, -1, 4});
+  checkVector(si.ng, {0, 0, 1});
+  CHECK(si.p.z == Approx(13));
+  checkVector(hitOf(description, {0, 0, 10}, {1, 0, 0}).p, {3, 0, 10});
+  description.shapes[0].flipNormals = true;
+  checkVector(hitOf(description, {0, 1.9f, 0}, {0, 0, 1}).ng, {0, 0, 1});
+  CHECK(scene.counts().primitives == 1);
+  CHECK(scene.bounds().min.z <= 7);
+  CHECK(scene.bounds().max.z >= 13);
+  CHECK(scene.bounds().max.z < 13.1f);
+  CHECK(scene.bounds().max.y < 2.1f);
+}
+
 TEST_CASE("Instances show their group where the transform puts it") {
   SceneDescription description = test::emptyScene();
   description.groups.push_back({"pair",

@@ -223,3 +223,30 @@ TEST_CASE("A cover close before the light hides it") {
     REQUIRE_FALSE(scene.visible(si, sample));
   }
 }
+
+TEST_CASE("Rays that leave a cylinder do not meet it again, at every size and place") {
+  for (const float size : {1e-3f, 1.0f, 1e3f})
+    for (const float away : {0.0f, 100.0f}) {
+      CAPTURE(size, away);
+      const Matrix4 toWorld = Matrix4().setAxisAngle(Vec3(1, 2, 3).normalized(), 1.1f) * test::scaling(Vec3(size)) *
+                              test::translation(Vec3(away, -away, 2 * away) * size);
+      const Scene scene(test::sceneOf(CylinderShape{{0, 0, -2}, {0, 0, 2}, 1}, toWorld));
+      test::Random random(5);
+      int hits = 0, selfHits = 0, leaks = 0;
+      for (int i = 0; i < 20'000; ++i) {
+        const Vec3 onAxis = Vec3(0, 0, 3 * random.next1D() - 1.5f) * toWorld;
+        const Vec3 from = onAxis + squareToUniformSphere(random.next2D()) * (20 * size);
+        SurfaceInteraction si;
+        if (!scene.intersect({from - Vec3(scene.origin()), (onAxis - from).normalized()}, si)) continue;
+        if (si.ng.dot(si.wo) < 0) continue;  // through an end
+        ++hits;
+        const Vec3 d = squareToUniformSphere(random.next2D());
+        const Vec3 out = d.dot(si.ng) < 0 ? -d : d;
+        selfHits += scene.occluded(scene.spawnRay(si, out));
+        leaks += !scene.occluded(scene.spawnRay(si, -si.ng));
+      }
+      CHECK(hits > 15'000);
+      CHECK(selfHits == 0);
+      CHECK(leaks == 0);
+    }
+}

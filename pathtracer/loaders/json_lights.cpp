@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <functional>
+#include <map>
+
+#include "core/near_name.h"
+#include "loaders/json_parts.h"
+
+namespace pt::json {
+namespace {
+
+using Kind = decltype(LightDescription::kind);
+
+Kind readPoint(ObjectReader& reader) {
+  return PointLight{reader.vector("position", Vec3(0, 0, 0)), reader.color("intensity", Spectrum(1.0f))};
+}
+
+Vec3 readDirection(ObjectReader& reader) {
+  const Node node = reader.require("direction");
+  const Vec3 direction(node.vector());
+  if (direction.length() == 0) node.fail("must not be [0, 0, 0]");
+  return direction;
+}
+
+Kind readSpot(ObjectReader& reader) {
+  SpotLight spot;
+  spot.position = reader.vector("position", spot.position);
+  spot.direction = readDirection(reader);
+  spot.intensity = reader.color("intensity", Spectrum(1.0f));
+  spot.cutoffDegrees = reader.positive("cutoffAngle", spot.cutoffDegrees);
+  if (spot.cutoffDegrees > 180) reader.require("cutoffAngle").fail("must be at most 180 degrees");
+  spot.beamDegrees = reader.number("beamWidth", 0.75f * spot.cutoffDegrees);
+  if (!(spot.beamDegrees >= 0 && spot.beamDegrees <= spot.cutoffDegrees))
+    reader.require("beamWidth").fail("must lie between 0 and the cutoff angle");
+  spot.falloff = static_cast<SpotFalloff>(reader.choice("falloff", {"angle", "cosineSquared"}, 0));
+  return spot;
+}
+
+Kind readDirectional(ObjectReader& reader) {
+  DirectionalLight light;
+  light.direction = readDirection(reader);
+  light.irradiance = reader.color("irradiance", Spectrum(1.0f));
+  return light;
+}
+
+Kind readConstant(ObjectReader& reader) {
+  return ConstantEnvironment{reader.color("radiance", Spectrum(1.0f))};
+}
+
+const std::map<std::string, std::function<Kind(ObjectReader&)>> kReaders = {
+    {"point", readPoint},
+    {"spot", readSpot},
+    {"directional", readDirectional},
+    {"constant", readConstant},
+};
+
+}  // namespace
+
+LightDescription readLight(const Node& node) {
+  ObjectReader reader(node);
+  const Node type = reader.require("type");
+  const auto found = kReaders.find(type.string());
+  if (found == kReaders.end()) {
+    std::vector<std::string> known;
+    for (const auto& [name, read] : kReaders) known.push_back(name);
+    type.fail(fmt::format("'{}' is no known light{}", type.string(), suggestName(type.string(), known)));
+  }
+  LightDescription light{found->second(reader), node.source()};
+  reader.finish();
+  return light;
+}
+
+}  // namespace pt::json
