@@ -54,12 +54,17 @@ std::uint32_t learningLeaf(const Field::State& state, const RadianceSample& samp
 /// A sample on its way into a quadtree.
 struct Splat {
   SquarePoint point;
-  double value;  ///< radiance / pdf; the quotient of two floats may leave their range
+  double value;  ///< target / pdf; the quotient of two floats may leave their range
+};
+/// The same, and what the sample says of the BSDF's density.
+struct ProductSplat : Splat {
+  float bsdf;
 };
 
-void learnRadiance(Field::State& state, const SampleRange& samples) {
+/// The samples by the leaves that learn from them; what is dark is only counted, unless it tells of the BSDF.
+LeafPartition<Splat> radianceByLeaf(const Field::State& state, const SampleRange& samples) {
   const DirectionMap map = state.settings.directionMap;
-  const auto splats = partitionByLeaf<Splat>(
+  return partitionByLeaf<Splat>(
       samples, state.leaves.size(),
       [&](const RadianceSample& s) {
         if (!isUsable(s)) return kNoLeaf;
@@ -68,11 +73,30 @@ void learnRadiance(Field::State& state, const SampleRange& samples) {
       [&](const RadianceSample& s) {
         return Splat{toSquarePoint(sphereToSquare(map, s.direction)), double(s.radiance) / double(s.pdf)};
       });
+}
+LeafPartition<ProductSplat> productByLeaf(const Field::State& state, const SampleRange& samples) {
+  const DirectionMap map = state.settings.directionMap;
+  return partitionByLeaf<ProductSplat>(
+      samples, state.leaves.size(),
+      [&](const RadianceSample& s) { return isUsable(s) ? learningLeaf(state, s) : kNoLeaf; },
+      [&](const RadianceSample& s) {
+        return ProductSplat{{toSquarePoint(sphereToSquare(map, s.direction)), double(s.product) / double(s.pdf)},
+                            s.bsdfPdf / s.pdf};
+      });
+}
+
+template <class Item>
+void splatByLeaf(Field::State& state, const LeafPartition<Item>& splats) {
+  const DirectionMap map = state.settings.directionMap;
   const bool box = state.settings.directionalFilter == DirectionalFilter::Box;
   parallelFor(state.leaves.size(), kLeafGrain, [&](std::size_t leaf) {
     SpatialLeaf& target = state.leaves[leaf];
     target.sampleCount += splats.ofLeaf(leaf).size() + splats.idleCount[leaf];
-    for (const Splat& splat : splats.ofLeaf(leaf)) {
+    for (const Item& splat : splats.ofLeaf(leaf)) {
+      if constexpr (std::is_same_v<Item, ProductSplat>) {
+        target.building.splatBsdf(splat.point, splat.bsdf);
+        if (!(splat.value > 0)) continue;
+      }
       const double value = target.largestRecord > 0 ? std::min(splat.value, target.largestRecord) : splat.value;
       if (box)
         splatBox(target.building, map, splat.point, value);
@@ -148,7 +172,10 @@ void accumulate(Field::State& state, std::span<const SampleBuffer> buffers) {
   const SampleSequence samples(buffers);
   for (std::size_t begin = 0; begin < samples.size(); begin += kBlock) {
     const SampleRange block(samples, begin, std::min(begin + kBlock, samples.size()));
-    learnRadiance(state, block);
+    if (state.settings.target == LearningTarget::Product)
+      splatByLeaf(state, productByLeaf(state, block));
+    else
+      splatByLeaf(state, radianceByLeaf(state, block));
     if (state.settings.fractionMode != FractionMode::Fixed && !state.density.trees().empty())
       learnFraction(state, block);
     count(state, block);

@@ -48,6 +48,7 @@ DirectionalQuadtree DirectionalQuadtree::refined(double total, double threshold,
     next.m_nodes[i] = {cell.sum, links};
   }
   next.m_nodes.shrink_to_fit();
+  if (learnsBsdf()) next.learnBsdf();
   return next;
 }
 

@@ -51,26 +51,50 @@ class DirectionalQuadtree {
     }
   }
 
+  /// From now on learns the BSDF's density beside the flux.
+  void learnBsdf() { m_bsdf.resize(m_nodes.size()); }
+  bool learnsBsdf() const noexcept { return !m_bsdf.empty(); }
+  /// Adds `value` to what the leaf cell that contains the point has of the BSDF's density.
+  void splatBsdf(SquarePoint point, double value) noexcept {
+    std::uint32_t index = 0;
+    for (int depth = 0;; ++depth) {
+      const QuadtreeLinks links = m_nodes[index].links;
+      const int cell = point.cellAt(depth);
+      if (links.isLeaf(cell)) {
+        m_bsdf[index][cell] += value;
+        return;
+      }
+      index = links.childIndex(cell);
+    }
+  }
+  /// By node, for leaf cells; empty unless learned.
+  const std::vector<std::array<double, 4>>& bsdfSums() const noexcept { return m_bsdf; }
+  std::vector<std::array<double, 4>>& bsdfSums() noexcept { return m_bsdf; }
+
   /// Sums the leaf cells into their parents and returns the total.
   double build();
 
   /// The tree to learn into next: cells with more than `threshold` of the total flux are subdivided, up to `maxDepth`;
   /// those with less are merged; below a former leaf the flux counts as evenly spread [Müller et al. 2017, Sec. 3.2].
-  /// It still shows the flux. Requires build() and a positive total.
+  /// It still shows the flux, but not the BSDF's density. Requires build() and a positive total.
   DirectionalQuadtree refined(double total, double threshold, int maxDepth) const;
 
   void clear() noexcept {
     for (Node& node : m_nodes) node.sum = {};
+    for (auto& sums : m_bsdf) sums = {};
   }
   /// Share of all flux per unit area of the square, at a point; 0 without flux.
   double densityAt(SquarePoint point) const noexcept;
 
   const std::vector<Node>& nodes() const noexcept { return m_nodes; }
   std::vector<Node>& nodes() noexcept { return m_nodes; }
-  std::size_t memoryBytes() const noexcept { return m_nodes.capacity() * sizeof(Node); }
+  std::size_t memoryBytes() const noexcept {
+    return m_nodes.capacity() * sizeof(Node) + m_bsdf.capacity() * sizeof(m_bsdf[0]);
+  }
 
  private:
-  std::vector<Node> m_nodes;  ///< root first, parents before children
+  std::vector<Node> m_nodes;                  ///< root first, parents before children
+  std::vector<std::array<double, 4>> m_bsdf;  ///< sums of the BSDF's density over the density of the samples
 };
 
 }  // namespace guiding

@@ -38,6 +38,7 @@ struct Field::State {
   State(const Imath::Box3f& box, const FieldSettings& s)
       : settings(s), bounds(box), tree(box), leaves(1), density(s.directionMap) {
     leaves[0].startAt(s);
+    if (s.target == LearningTarget::Product) leaves[0].building.learnBsdf();
   }
 
   FieldSettings settings;

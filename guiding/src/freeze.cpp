@@ -18,10 +18,13 @@ double massOf(const LearnedNode& node) {
 /// Leaf cells of a quadtree as flat arrays: what the solver eats.
 struct LeafCells {
   std::vector<double> mass, area;
+  std::vector<double> bsdf;  ///< shares of the BSDF's density; empty unless learned
 };
 
-LeafCells leafCells(const std::vector<LearnedNode>& nodes) {
+LeafCells leafCells(const DirectionalQuadtree& learned) {
+  const std::vector<LearnedNode>& nodes = learned.nodes();
   LeafCells cells;
+  double bsdfTotal = 0;
   std::vector<double> cellArea(nodes.size(), 0.25);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     for (int c = 0; c < 4; ++c) {
@@ -31,8 +34,13 @@ LeafCells leafCells(const std::vector<LearnedNode>& nodes) {
       }
       cells.mass.push_back(nodes[i].sum[c]);
       cells.area.push_back(cellArea[i]);
+      if (!learned.learnsBsdf()) continue;
+      cells.bsdf.push_back(learned.bsdfSums()[i][c]);
+      bsdfTotal += cells.bsdf.back();
     }
   }
+  if (!(bsdfTotal > 0)) cells.bsdf.clear();
+  for (double& bsdf : cells.bsdf) bsdf /= bsdfTotal;
   return cells;
 }
 
@@ -131,9 +139,10 @@ std::vector<GuidingDensity::Node> nodesBelow(const std::vector<LearnedNode>& lea
 
 FrozenTree freeze(const DirectionalQuadtree& learned, CompensationForm form, float assumedFraction) {
   std::vector<LearnedNode> nodes = learned.nodes();
-  LeafCells cells = leafCells(nodes);
+  LeafCells cells = leafCells(learned);
   FrozenTree frozen{};
-  const CompensationResult solved = compensate(cells.mass, cells.area, assumedFraction, form, cells.mass);
+  const CompensationResult solved =
+      compensate(cells.mass, cells.bsdf.empty() ? cells.area : cells.bsdf, assumedFraction, form, cells.mass);
   if (solved.empty) return frozen;
 
   replaceLeafMasses(nodes, cells.mass);

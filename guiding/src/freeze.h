@@ -13,7 +13,8 @@ struct FrozenTree {
   std::vector<GuidingDensity::Node> nodes;
 };
 
-/// Freezes a quadtree after build(): compensates its leaf cells against a uniform density, then sums up.
+/// Freezes a quadtree after build(): compensates its leaf cells against the BSDF's density, which counts as uniform
+/// where it was not learned, then sums up.
 /// `assumedFraction` is the BSDF share that is compensated for, never above the share that is sampled.
 FrozenTree freeze(const DirectionalQuadtree& learned, CompensationForm form, float assumedFraction);
 

@@ -11,6 +11,7 @@ namespace {
 
 void putSettings(ByteWriter& out, const FieldSettings& s) {
   out.put(std::uint32_t(s.directionMap));
+  out.put(std::uint32_t(s.target));
   out.put(s.sTreeThreshold);
   out.put(std::uint64_t(s.maxMemoryBytes));
   out.put(s.dTreeThreshold);
@@ -37,6 +38,7 @@ bool getEnum(ByteReader& in, Enum& value, Enum last) {
 
 bool getSettings(ByteReader& in, FieldSettings& s) {
   bool ok = getEnum(in, s.directionMap, DirectionMap::Octahedral);
+  ok &= getEnum(in, s.target, LearningTarget::Product);
   s.sTreeThreshold = in.get<double>();
   s.maxMemoryBytes = std::size_t(in.get<std::uint64_t>());
   s.dTreeThreshold = in.get<float>();
@@ -100,9 +102,12 @@ void putLeaf(ByteWriter& out, const SpatialLeaf& leaf) {
     for (int c = 0; c < 4; ++c) out.put(node.links.isLeaf(c) ? node.sum[c] : 0.0);
     putLinks(out, node.links);
   }
+  out.put(std::uint8_t(leaf.building.learnsBsdf()));
+  for (const auto& sums : leaf.building.bsdfSums())
+    for (const double sum : sums) out.put(sum);
 }
 
-constexpr std::size_t kLeafBytes = 4 + 8 + 8 + 4 + 40 + 80 + 8, kBuildingNodeBytes = 37;
+constexpr std::size_t kLeafBytes = 4 + 8 + 8 + 4 + 40 + 80 + 8 + 1, kBuildingNodeBytes = 37;
 
 void getLeaf(ByteReader& in, SpatialLeaf& leaf) {
   leaf.sampleCount = in.get<std::uint64_t>();
@@ -115,6 +120,10 @@ void getLeaf(ByteReader& in, SpatialLeaf& leaf) {
     for (double& sum : node.sum) sum = in.get<double>();
     node.links = getLinks(in);
   }
+  if (in.get<std::uint8_t>() == 0 || in.remaining() / (4 * sizeof(double)) < nodes.size()) return;
+  leaf.building.learnBsdf();
+  for (auto& sums : leaf.building.bsdfSums())
+    for (double& sum : sums) sum = in.get<double>();
 }
 
 void putDensity(ByteWriter& out, const GuidingDensity& density) {

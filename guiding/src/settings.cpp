@@ -24,7 +24,8 @@ FieldSettings FieldSettings::production2019() {
 
 FieldSettings FieldSettings::recommended() {
   FieldSettings s = production2019();
-  s.compensation = {CompensationForm::WaterFilling, 1.0f};
+  s.target = LearningTarget::Product;
+  s.compensation = {CompensationForm::WaterFilling, 0.5f};
   return s;
 }
 
@@ -41,6 +42,9 @@ FieldSettings FieldSettings::boundProduct() {
 
 Status FieldSettings::validate() const {
   if (!isOneOf(directionMap, DirectionMap::Octahedral)) return outOfRange("directionMap is not one of its values");
+  if (!isOneOf(target, LearningTarget::Product)) return outOfRange("target is not one of its values");
+  if (product && target != LearningTarget::Radiance)
+    return outOfRange("product multiplies what was learned with the BSDF, so target must be the radiance");
   if (!isOneOf(spatialFilter, SpatialFilter::StochasticBox))
     return outOfRange("spatialFilter is not one of its values");
   if (!isOneOf(directionalFilter, DirectionalFilter::Box))

@@ -19,6 +19,12 @@ Status validateBuilding(const SpatialLeaf& leaf, std::size_t index, int maxDepth
   for (const auto& node : nodes)
     for (const double sum : node.sum)
       if (!(sum >= 0) || !std::isfinite(sum)) return violation("flux of a quadtree cell of spatial leaf", index);
+  if (leaf.building.learnsBsdf() && leaf.building.bsdfSums().size() != nodes.size())
+    return violation("BSDF densities of spatial leaf", index);
+  for (const auto& sums : leaf.building.bsdfSums())
+    for (const double sum : sums)
+      if (!(sum >= 0) || !std::isfinite(sum))
+        return violation("BSDF density of a quadtree cell of spatial leaf", index);
   if (!(leaf.largestRecord >= 0)) return violation("largest record of spatial leaf", index);
   return Success{};
 }
@@ -82,6 +88,8 @@ Status validateState(const Field::State& state) {
   for (std::size_t leaf = 0; leaf < state.leaves.size(); ++leaf) {
     const Status building = validateBuilding(state.leaves[leaf], leaf, maxDepth);
     if (!building) return building;
+    if (state.leaves[leaf].building.learnsBsdf() != (state.settings.target == LearningTarget::Product))
+      return violation("BSDF densities of spatial leaf", leaf);
     if (!fractionIsSound(state.leaves[leaf])) return violation("learned fraction of spatial leaf", leaf);
     const std::uint32_t tree = state.densityOfLeaf[leaf] & ~GuidingDensity::kResting;
     if (state.densityOfLeaf[leaf] != GuidingDensity::kNoGuide && tree >= state.density.trees().size())

@@ -20,7 +20,7 @@ std::span<const GuidingPreset> guidingPresets() {
        GuidingSettings{guiding::FieldSettings::mueller2017(), guiding::ScheduleSettings::mueller2017(), {}}},
       {"production2019", "the same with the improvements of 2019: filters, learned fraction, combined iterations",
        GuidingSettings{guiding::FieldSettings::production2019(), guiding::ScheduleSettings::production2019(), {}}},
-      {"recommended", "what our measurements recommend: production2019 with uniform compensation",
+      {"recommended", "what our measurements recommend: production2019 that learns the product and is compensated for it",
        GuidingSettings{guiding::FieldSettings::recommended(), guiding::ScheduleSettings::recommended(), {}}},
       {"bound-product", "the density bound to each shading point: least error for a number of samples",
        GuidingSettings{guiding::FieldSettings::boundProduct(), guiding::ScheduleSettings::boundProduct(), {}}},

@@ -26,6 +26,14 @@ struct Labels<guiding::DirectionMap> {
 };
 
 template <>
+struct Labels<guiding::LearningTarget> {
+  static constexpr std::array<std::pair<guiding::LearningTarget, std::string_view>, 2> kTable{{
+      {guiding::LearningTarget::Radiance, "radiance"},
+      {guiding::LearningTarget::Product, "product"},
+  }};
+};
+
+template <>
 struct Labels<guiding::SpatialFilter> {
   static constexpr std::array<std::pair<guiding::SpatialFilter, std::string_view>, 2> kTable{{
       {guiding::SpatialFilter::Nearest, "nearest"},

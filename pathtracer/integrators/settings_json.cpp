@@ -32,6 +32,7 @@ void visitMembers(Is<guiding::CompensationSettings> auto& s, auto&& visitor) {
 
 void visitMembers(Is<guiding::FieldSettings> auto& s, auto&& visitor) {
   visitor("directionMap", s.directionMap);
+  visitor("target", s.target);
   visitor("sTreeThreshold", s.sTreeThreshold);
   visitor("maxMemoryBytes", s.maxMemoryBytes);
   visitor("dTreeThreshold", s.dTreeThreshold);

@@ -56,6 +56,31 @@ TEST_CASE("Compensated quarters by hand") {
         Approx(4 * (0.25 * 14 / 15 - 0.15) / 0.4));
 }
 
+TEST_CASE("Quarters compensated against a learned BSDF by hand") {
+  DirectionalQuadtree tree;
+  tree.learnBsdf();
+  tree.nodes()[0].sum = {4, 1, 2, 1};
+  tree.bsdfSums()[0] = {10, 0, 80, 10};  // shares .1, 0, .8, .1
+  const FrozenQuadtree clip(DirectionMap::Octahedral, tree, CompensationForm::ClipRenormalise, 0.5f);
+  // t/T - b/2: .45, .125, < 0, .075
+  CHECK(clip.pdf(directionIn(DirectionMap::Octahedral, 0.2f, 0.2f)) * kSphere == Approx(4 * 0.45 / 0.65));
+  CHECK(clip.pdf(directionIn(DirectionMap::Octahedral, 0.7f, 0.2f)) * kSphere == Approx(4 * 0.125 / 0.65));
+  CHECK(clip.pdf(directionIn(DirectionMap::Octahedral, 0.2f, 0.7f)) == 0);
+  CHECK(clip.pdf(directionIn(DirectionMap::Octahedral, 0.7f, 0.7f)) * kSphere == Approx(4 * 0.075 / 0.65));
+}
+
+TEST_CASE("A target that is the BSDF's own density leaves nothing to guide") {
+  DirectionalQuadtree tree;
+  tree.learnBsdf();
+  tree.nodes()[0].sum = {4, 1, 2, 1};
+  tree.bsdfSums()[0] = {8, 2, 4, 2};
+  tree.build();
+  // Every share of the target is the BSDF's: the rest is in proportion, at any strength.
+  const FrozenQuadtree same(DirectionMap::Cylinder, tree, CompensationForm::WaterFilling, 0.7f);
+  CHECK(same.pdf(directionIn(DirectionMap::Cylinder, 0.2f, 0.2f)) * kSphere == Approx(2));
+  CHECK(same.pdf(directionIn(DirectionMap::Cylinder, 0.7f, 0.7f)) * kSphere == Approx(0.5));
+}
+
 TEST_CASE("A trained density is the learned share of each cell, and integrates to one") {
   for (const DirectionMap map : kBothMaps) {
     const DirectionalQuadtree tree = learn(map, MixedLight(1));

@@ -224,6 +224,58 @@ TEST_CASE("What was learned can be looked at beside what is sampled") {
   }
 }
 
+TEST_CASE("The product is learned, and compensated against the BSDF that was sampled") {
+  // Light from everywhere on a surface that faces +z: the product is a cosine lobe, and the BSDF draws just that.
+  const auto recordCosine = [](const Field& field, Random& random) {
+    SampleBuffer buffer;
+    for (int i = 0; i < 50'000; ++i) {
+      const GuidingDistribution guide = field.bind(Imath::V3f(0.5f));
+      const float alpha = guide.bsdfSamplingFraction();
+      const Imath::V2f u = random.next2D();
+      RadianceSample s;
+      const float z = std::sqrt(u.x), r = std::sqrt(1 - u.x), phi = 2 * kPi * u.y;
+      s.direction = random.next1D() < alpha ? Imath::V3f(r * std::cos(phi), r * std::sin(phi), z).normalized()
+                                            : guide.sample(random.next2D()).wi;
+      s.position = Imath::V3f(0.5f);
+      s.bsdfPdf = std::max(0.0f, s.direction.z) / kPi;
+      s.guidePdf = guide ? guide.pdf(s.direction) : 0;
+      s.pdf = alpha * s.bsdfPdf + (1 - alpha) * s.guidePdf;
+      s.radiance = s.direction.x > 0.5f ? 8 : 1;
+      s.product = s.radiance * s.bsdfPdf;
+      buffer.add(s);
+    }
+    return buffer;
+  };
+  for (const CompensationForm form : {CompensationForm::None, CompensationForm::WaterFilling}) {
+    FieldSettings settings;
+    settings.sTreeThreshold = 1e9;
+    settings.target = LearningTarget::Product;
+    settings.compensation.form = form;
+    Field field = makeField(settings);
+    Random random(1);
+    for (int iteration = 0; iteration < 5; ++iteration) {
+      REQUIRE(field.accumulate(recordCosine(field, random)));
+      REQUIRE(field.endIteration(4));
+      REQUIRE(field.validate());
+    }
+    const GuidingDistribution guide = field.bind(Imath::V3f(0.5f));
+    REQUIRE(guide);
+    // All of it above the horizon, but for cells that stick out; with compensation only where there is more light.
+    int above = 0, bright = 0;
+    constexpr int kDraws = 20'000;
+    for (int i = 0; i < kDraws; ++i) {
+      const Imath::V3f wi = guide.sample(random.next2D()).wi;
+      above += wi.z > -0.2f;
+      bright += wi.x > 0.4f && wi.z > -0.2f;
+    }
+    CHECK(above > 0.99 * kDraws);
+    if (form == CompensationForm::None)
+      CHECK(bright < 0.8 * kDraws);
+    else
+      CHECK(bright > 0.9 * kDraws);
+  }
+}
+
 TEST_CASE("Where nothing was learned there is no guide") {
   FieldSettings settings = FieldSettings::mueller2017();
   settings.sTreeThreshold = 200;

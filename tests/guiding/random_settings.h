@@ -26,7 +26,8 @@ class RandomCases {
     s.fractionMode = FractionMode(below(3));
     s.fractionLoss = FractionLoss(below(2));
     s.compensation = {CompensationForm(below(3)), below(3) == 0 ? 1.0f : uniform()};
-    s.product = below(2) == 0;
+    s.target = LearningTarget(below(2));
+    s.product = s.target == LearningTarget::Radiance && below(2) == 0;
     s.recordClip = below(2) == 0 ? 0 : 0.1f * uniform();
     s.minimalGain = below(2) == 0 ? 0 : 0.1f * uniform();
     return s;

@@ -26,6 +26,14 @@ struct CompensationSettings {
   float strength = 1.0f;
 };
 
+/// What the quadtrees learn, and so what the guide's density is proportional to.
+enum class LearningTarget {
+  Radiance,  ///< incident radiance [Müller et al. 2017]
+  /// Radiance * BSDF * cos, averaged over the surfaces of a spatial leaf. Compensated against the mean of the BSDFs'
+  /// densities, which is learned beside it, instead of a uniform density.
+  Product,
+};
+
 /// Where in space a sample is learned.
 enum class SpatialFilter {
   Nearest,        ///< in the leaf that contains it
@@ -55,6 +63,7 @@ enum class FractionLoss {
 /// Settings of the SD-tree and of the density that is sampled from it.
 struct FieldSettings {
   DirectionMap directionMap = DirectionMap::Cylinder;
+  LearningTarget target = LearningTarget::Radiance;
 
   /// After an iteration of n samples per pixel, a spatial leaf is halved until its share of that iteration's samples is
   /// at most sTreeThreshold * sqrt(2 n / 4): the coming iteration has twice the samples [Müller et al. 2017, Sec. 3.3].
@@ -92,7 +101,7 @@ struct FieldSettings {
   CompensationSettings compensation;
 
   /// Multiply the learned radiance with the host's lobes at each shading point (see Field::bind). Compensation then
-  /// happens there, against the lobes instead of a uniform density.
+  /// happens there, against the lobes instead of a uniform density. Takes LearningTarget::Radiance.
   bool product = false;
 
   /// The algorithm of the paper [Müller et al. 2017]: no compensation, fixed fraction one half.

@@ -32,7 +32,10 @@ std::vector<std::pair<const char*, pt::GuidingSettings>> guidedVariants() {
   pt::GuidingSettings boundProduct = eagerGuiding(CompensationForm::None);
   boundProduct.field = guiding::FieldSettings::boundProduct();
   boundProduct.field.sTreeThreshold = 200;
+  pt::GuidingSettings product = eagerGuiding(CompensationForm::WaterFilling);
+  product.field.target = guiding::LearningTarget::Product;
   return {{"guided", eagerGuiding(CompensationForm::None)},
+          {"product target, compensated", product},
           {"uniform compensation", eagerGuiding(CompensationForm::WaterFilling)},
           {"clipped", eagerGuiding(CompensationForm::ClipRenormalise)},
           {"bound-product", boundProduct}};
