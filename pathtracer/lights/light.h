@@ -34,7 +34,7 @@ class Light {
   virtual Spectrum radiance(const SurfaceInteraction& hit, const Vec3& wo) const noexcept = 0;
 };
 
-/// Light from infinitely far away.
+/// Light from infinitely far away. Its power is that of the light through a sphere around the scene; 0: all black.
 class EnvironmentLight : public Light {
  public:
   /// Radiance from direction wi, unit.

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/near_name.h"
+#include "loaders/environment_file.h"
 #include "loaders/json_parts.h"
 
 namespace pt::json {
@@ -11,7 +12,7 @@ namespace {
 
 using Kind = decltype(LightDescription::kind);
 
-Kind readPoint(ObjectReader& reader) {
+Kind readPoint(Context&, ObjectReader& reader) {
   return PointLight{reader.vector("position", Vec3(0, 0, 0)), reader.color("intensity", Spectrum(1.0f))};
 }
 
@@ -22,7 +23,7 @@ Vec3 readDirection(ObjectReader& reader) {
   return direction;
 }
 
-Kind readSpot(ObjectReader& reader) {
+Kind readSpot(Context&, ObjectReader& reader) {
   SpotLight spot;
   spot.position = reader.vector("position", spot.position);
   spot.direction = readDirection(reader);
@@ -36,27 +37,38 @@ Kind readSpot(ObjectReader& reader) {
   return spot;
 }
 
-Kind readDirectional(ObjectReader& reader) {
+Kind readDirectional(Context&, ObjectReader& reader) {
   DirectionalLight light;
   light.direction = readDirection(reader);
   light.irradiance = reader.color("irradiance", Spectrum(1.0f));
   return light;
 }
 
-Kind readConstant(ObjectReader& reader) {
+Kind readConstant(Context&, ObjectReader& reader) {
   return ConstantEnvironment{reader.color("radiance", Spectrum(1.0f))};
 }
 
-const std::map<std::string, std::function<Kind(ObjectReader&)>> kReaders = {
-    {"point", readPoint},
-    {"spot", readSpot},
-    {"directional", readDirectional},
-    {"constant", readConstant},
+Kind readMap(Context& context, ObjectReader& reader) {
+  const Node name = reader.require("file");
+  const auto path = context.search.find(name.string());
+  if (!path) name.fail(fmt::format("there is no file '{}'", name.string()));
+  EnvironmentMap map;
+  map.image = readEnvironment(*path, name.source(), context.scene.notes);
+  const bool isOctahedral = reader.choice("mapping", {"latLong", "octahedral"}, 0) == 1;
+  map.mapping = isOctahedral ? guiding::EnvironmentMapping::Octahedral : guiding::EnvironmentMapping::LatLong;
+  map.scale = reader.positive("scale", 1);
+  map.toWorld = readTransform(reader.find("transform"));
+  return map;
+}
+
+const std::map<std::string, std::function<Kind(Context&, ObjectReader&)>> kReaders = {
+    {"point", readPoint},       {"spot", readSpot},       {"directional", readDirectional},
+    {"constant", readConstant}, {"environment", readMap},
 };
 
 }  // namespace
 
-LightDescription readLight(const Node& node) {
+LightDescription readLight(Context& context, const Node& node) {
   ObjectReader reader(node);
   const Node type = reader.require("type");
   const auto found = kReaders.find(type.string());
@@ -65,7 +77,7 @@ LightDescription readLight(const Node& node) {
     for (const auto& [name, read] : kReaders) known.push_back(name);
     type.fail(fmt::format("'{}' is no known light{}", type.string(), suggestName(type.string(), known)));
   }
-  LightDescription light{found->second(reader), node.source()};
+  LightDescription light{found->second(context, reader), node.source()};
   reader.finish();
   return light;
 }

@@ -26,7 +26,7 @@ int readGroup(Context& context, const std::string& name, const Node& user);
 
 ShapeDescription readShape(Context& context, const Node& node);
 
-LightDescription readLight(const Node& node);
+LightDescription readLight(Context& context, const Node& node);
 
 CameraDescription readCamera(const Node& node);
 FilmDescription readFilm(const Node& node);

@@ -29,7 +29,7 @@ void readAll(Context& context, ObjectReader& root) {
   if (const auto shapes = root.find("shapes"))
     for (const Node& node : shapes->elements()) context.scene.shapes.push_back(readShape(context, node));
   if (const auto lights = root.find("lights"))
-    for (const Node& node : lights->elements()) context.scene.lights.push_back(readLight(node));
+    for (const Node& node : lights->elements()) context.scene.lights.push_back(readLight(context, node));
   if (const auto camera = root.find("camera")) context.scene.camera = readCamera(*camera);
   if (const auto film = root.find("film")) context.scene.film = readFilm(*film);
   if (const auto integrator = root.find("integrator")) context.scene.integrator = readIntegrator(*integrator);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "loaders/environment_file.h"
 #include "loaders/mitsuba_parts.h"
 
 namespace pt::mitsuba {
@@ -45,6 +46,16 @@ LightDescription readConstant(Reader& reader) {
   return {ConstantEnvironment{reader.color("radiance", Spectrum(1.0f))}, reader.object().source};
 }
 
+LightDescription readEnvironmentMap(Context& context, Reader& reader) {
+  EnvironmentMap map;
+  map.image = readEnvironment(reader.file("filename"), reader.object().source, context.scene.notes);
+  map.mapping = context.isOld() ? guiding::EnvironmentMapping::LatLong : guiding::EnvironmentMapping::LatLongToPoles;
+  map.toWorld = reader.transform("to_world");
+  map.scale = reader.number("scale", 1);
+  reader.ignore({"cache", "gamma", "mis_compensation"});  // how it is sampled is ours to say
+  return {map, reader.object().source};
+}
+
 }  // namespace
 
 void readEmitter(Context& context, const Object& object) {
@@ -59,6 +70,8 @@ void readEmitter(Context& context, const Object& object) {
       context.scene.lights.push_back(readDirectional(reader));
     } else if (object.type == "constant") {
       context.scene.lights.push_back(readConstant(reader));
+    } else if (object.type == "envmap") {
+      context.scene.lights.push_back(readEnvironmentMap(context, reader));
     } else if (object.type == "area") {
       failAt(object.source, "an area emitter belongs inside of a shape");
     } else {

@@ -8,6 +8,7 @@
 #include "lights/cylinder_light.h"
 #include "lights/directional_light.h"
 #include "lights/disk_light.h"
+#include "lights/environment_map_light.h"
 #include "lights/mesh_light.h"
 #include "lights/point_light.h"
 #include "lights/sphere_light.h"
@@ -238,13 +239,23 @@ class SceneBuilder {
   double sceneRadius() const { return Imath::V3d(m_data.bounds.size()).length() / 2; }
 
   void addLight(const ConstantEnvironment& light, const SourceLocation& source) {
-    if (m_data.environment) throw InputError(source + ": the scene has an environment already; keep one");
     if (!isEmission(light.radiance)) throw InputError(source + ": radiance must be finite and not negative");
-    if (isBlack(light.radiance)) {
+    addEnvironment(std::make_unique<ConstantLight>(light.radiance, sceneRadius()), source);
+  }
+
+  void addLight(const EnvironmentMap& light, const SourceLocation& source) {
+    auto environment = std::make_unique<EnvironmentMapLight>(light, sceneRadius(), source);
+    m_data.environmentTableBytes = environment->tableBytes();
+    m_data.environmentTexels = environment->texels();
+    addEnvironment(std::move(environment), source);
+  }
+
+  void addEnvironment(std::unique_ptr<EnvironmentLight> environment, const SourceLocation& source) {
+    if (m_data.environment) throw InputError(source + ": the scene has an environment already; keep one");
+    if (environment->power() == 0) {
       ++m_data.blackEmitters;
       return;
     }
-    auto environment = std::make_unique<ConstantLight>(light.radiance, sceneRadius());
     m_data.environment = environment.get();
     m_data.lights.push_back(std::move(environment));
   }

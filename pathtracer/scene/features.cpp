@@ -67,8 +67,12 @@ void listLights(const SceneData& data, Lists& lists) {
   lists.add("area lights", area, "area lights", "no shape emits");
   lists.add("point, spot and directional lights", data.lights.size() - area - environment,
             "point, spot and directional lights", "none");
-  lists.add("constant environment", environment, "environment light and its sampling", "no environment");
-  if (environment) lists.leaveOut("environment sampling table", "the environment is constant");
+  if (data.environmentTexels > 0) {
+    lists.add("texels of the environment map, with a sampling table", data.environmentTexels, "", "");
+  } else {
+    lists.add("constant environment", environment, "environment light and its sampling", "no environment");
+    if (environment) lists.leaveOut("environment sampling table", "the environment is constant");
+  }
   if (data.lights.empty()) lists.leaveOut("light sampling", "no light that can be sampled");
   if (data.blackEmitters > 0) lists.leaveOut(fmt::format("{} lights", data.blackEmitters), "they are black");
 }
@@ -94,7 +98,7 @@ void listMaterials(const SceneData& data, const SceneFeatures& features, Lists& 
 
 SceneCounts countScene(const SceneData& data) {
   SceneCounts counts;
-  counts.memoryBytes = data.accel->memoryBytes();
+  counts.memoryBytes = data.accel->memoryBytes() + data.environmentTableBytes;
   for (const Mesh& mesh : data.meshes) {
     counts.triangles += mesh.triangles.size();
     counts.memoryBytes += mesh.memoryBytes();

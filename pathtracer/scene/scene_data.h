@@ -31,6 +31,7 @@ struct SceneData {
   LightSelection selection;
   const EnvironmentLight* environment = nullptr;
   float environmentPmf = 0;
+  std::size_t environmentTexels = 0, environmentTableBytes = 0;  ///< 0 for a constant environment
 
   std::size_t degenerateTriangles = 0;
   std::size_t blackEmitters = 0;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <guiding/environment_layout.h>
+
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +16,8 @@
 
 /// What a loader yields and a Scene is built from: plain data, no behaviour.
 namespace pt {
+
+struct Image;
 
 inline constexpr int kNone = -1;
 
@@ -181,8 +185,15 @@ struct DirectionalLight {
 struct ConstantEnvironment {
   Spectrum radiance{1.0f};
 };
+/// A picture of the light from all directions.
+struct EnvironmentMap {
+  std::shared_ptr<const Image> image;  ///< radiance; finite, not negative
+  guiding::EnvironmentMapping mapping = guiding::EnvironmentMapping::LatLong;
+  Matrix4 toWorld;  ///< a rotation, perhaps mirrored or scaled
+  float scale = 1;  ///< of the radiance
+};
 struct LightDescription {
-  std::variant<PointLight, SpotLight, DirectionalLight, ConstantEnvironment> kind;
+  std::variant<PointLight, SpotLight, DirectionalLight, ConstantEnvironment, EnvironmentMap> kind;
   SourceLocation source;
 };
 

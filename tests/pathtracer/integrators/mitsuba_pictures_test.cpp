@@ -84,6 +84,7 @@ const std::vector<Region> kTexturedThings = {{29, 19, 37, 28}, {29, 29, 48, 39}}
 TEST_CASE("Mitsuba 3's pictures: spheres of all materials") {
   checkEqual({"bsdf_spheres/test_constant", kTexturedThings, true});
   checkEqual({"bsdf_spheres/test_arealight", kTexturedThings, true});
+  checkEqual({"bsdf_spheres/test_envmap", kTexturedThings, true});
 }
 
 TEST_CASE("the z-test of pictures passes equal means and rejects unequal ones") {

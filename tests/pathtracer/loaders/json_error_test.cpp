@@ -155,9 +155,14 @@ TEST_CASE("JSON: shapes, groups and lights that cannot work") {
         "s.json#/lights/0/beamWidth: must lie between 0 and the cutoff angle");
   CHECK(shapeError(R"({"type": "cylinder", "p1": [0, 0, 0], "emission": 1})") ==
         "s.json#/shapes/0: p0 and p1 must differ");
+  CHECK(errorOf(R"({"lights": [{"type": "environment"}]})") == "s.json#/lights/0: lacks the key 'file'");
+  CHECK(errorOf(R"({"lights": [{"type": "environment", "file": "no.exr"}]})") ==
+        "s.json#/lights/0/file: there is no file 'no.exr'");
 
   SceneFolder folder;
   folder.write("s.txt", "x");
+  CHECK(folder.errorOf("s.json", R"({"lights": [{"type": "environment", "file": "s.txt"}]})")
+            .starts_with("s.json#/lights/0/file: s.txt: cannot be read as a picture"));
   CHECK(folder.errorOf("s.json", R"({"shapes": [{"type": "mesh", "file": "s.txt", "emission": 1}]})") ==
         "s.json#/shapes/0/file: 's.txt' is no mesh file; .obj, .ply, .gltf, .glb and .serialized are");
   folder.write("empty.obj", "# nothing but vertices\nv 0 0 0\nv 1 0 0\n");

@@ -98,13 +98,13 @@ TEST_CASE("objects where they do not belong") {
 }
 
 TEST_CASE("unsupported plugins fail with plugin, file and line, or are left out and listed") {
-  const std::string content = R"(<emitter type="envmap"/>
+  const std::string content = R"(<emitter type="projector"/>
     <shape type="hair"/>
     <shape type="sphere"><emitter type="directionalarea"/></shape>
     <shape type="sphere"/>
     <sensor type="perspective"><film type="hdrfilm"><rfilter type="lanczos"/></film></sensor>
     <integrator type="ao"/>)";
-  CHECK(errorOf(content) == "a.xml:2: emitter 'envmap' is not supported; --skip-unsupported leaves it out");
+  CHECK(errorOf(content) == "a.xml:2: emitter 'projector' is not supported; --skip-unsupported leaves it out");
   CHECK(errorOf("<shape type=\"hair\"/>") ==
         "a.xml:2: shape 'hair' is not supported; --skip-unsupported leaves it out");
   CHECK(errorOf("<sensor type=\"fisheye\"/>") ==
@@ -118,6 +118,6 @@ TEST_CASE("unsupported plugins fail with plugin, file and line, or are left out 
   CHECK(scene.shapes.size() == 2);
   CHECK(scene.film.filter == ReconstructionFilter::Gaussian);
   REQUIRE(scene.skipped.size() == 5);
-  CHECK(folder.withoutFolder(scene.skipped[0]) == "a.xml:2: emitter 'envmap' is not supported: left out");
+  CHECK(folder.withoutFolder(scene.skipped[0]) == "a.xml:2: emitter 'projector' is not supported: left out");
   CHECK(folder.withoutFolder(scene.skipped[4]) == "a.xml:7: integrator 'ao' is not supported: the path tracer instead");
 }

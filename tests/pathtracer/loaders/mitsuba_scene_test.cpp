@@ -1,4 +1,7 @@
 // Shapes, emitters, sensor, film, sampler and integrator of Mitsuba files.
+#include <limits>
+
+#include "film/image_io.h"
 #include "loader_fixture.h"
 
 using namespace pt;
@@ -142,6 +145,38 @@ TEST_CASE("lights") {
             .errorOf("a.xml", mitsubaScene(R"(<emitter type="directional"><vector name="direction" value="0 0 1"/>
     <transform name="to_world"/></emitter>)"))
             .starts_with("a.xml:2: direction of emitter 'directional' excludes to_world"));
+}
+
+TEST_CASE("environment maps, laid out as the file's version has it") {
+  SceneFolder folder;
+  Image image(4, 2);
+  image.pixels.assign(8, Spectrum(0.5f));
+  image.pixels[3] = Spectrum(-1.0f);
+  image.pixels[5] = Spectrum(std::numeric_limits<float>::quiet_NaN());
+  writeExr(folder.path() / "sky.exr", image);
+  const std::string emitter = R"(<emitter type="envmap"><string name="filename" value="sky.exr"/>
+    <float name="scale" value="2"/><transform name="toWorld"><rotate y="1" angle="90"/></transform></emitter>)";
+  for (const char* version : {"0.5.0", "0.6.0", "2.0.0", "3.0.0"}) {
+    CAPTURE(version);
+    const auto scene = folder.load("a.xml", mitsubaScene(emitter, version));
+    const auto& map = std::get<EnvironmentMap>(scene.lights.at(0).kind);
+    const bool isOld = version[0] == '0';
+    CHECK(map.mapping == (isOld ? guiding::EnvironmentMapping::LatLong : guiding::EnvironmentMapping::LatLongToPoles));
+    CHECK(map.scale == 2);
+    CHECK(isNear(apply(map.toWorld, Vec3(0, 0, 1)), Vec3(1, 0, 0)));
+    REQUIRE(map.image->pixels.size() == 8);
+    CHECK(map.image->pixels[0] == Spectrum(0.5f));
+    CHECK(isBlack(map.image->pixels[3]));
+    CHECK(isBlack(map.image->pixels[5]));
+    REQUIRE(scene.notes.size() == 1);
+    CHECK(folder.withoutFolder(scene.notes[0]) ==
+          "a.xml:2: 2 texels of 'sky.exr' are negative or not finite and count as black");
+  }
+  CHECK(folder.errorOf("b.xml", mitsubaScene(R"(<emitter type="envmap"/>)")) ==
+        "b.xml:2: emitter 'envmap' lacks the property 'filename'");
+  CHECK(folder.errorOf("b.xml",
+                       mitsubaScene(R"(<emitter type="envmap"><string name="filename" value="no.exr"/></emitter>)")) ==
+        "b.xml:2: filename of emitter 'envmap' names a file that does not exist: 'no.exr'");
 }
 
 TEST_CASE("analytic shapes, their materials and emission") {
