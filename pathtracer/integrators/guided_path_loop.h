@@ -3,6 +3,7 @@
 #include <guiding/mis.h>
 #include <guiding/mixture.h>
 
+#include "integrators/medium_stack.h"
 #include "integrators/path_loop.h"
 #include "integrators/surface_bsdf.h"
 #include "scene/scene.h"
@@ -23,12 +24,13 @@ concept GuideSource = requires(const G& guides, const SurfaceInteraction& si, co
 template <GuideSource Guides>
 class GuidedPathLoop final : public PathLoop {
  public:
-  /// Light sampling is left out when no light of the scene can be sampled.
+  /// Light sampling is left out when no light of the scene can be sampled, absorption when no medium absorbs.
   GuidedPathLoop(const Scene& scene, const RenderSettings& settings, Guides guides) noexcept
       : m_scene(scene),
         m_guides(std::move(guides)),
         m_settings(settings.path),
         m_nee(settings.nee && scene.features().hasSampleableLights),
+        m_hasMedia(scene.features().hasMedia),
         m_powerHeuristic(settings.heuristic == MisHeuristic::Power) {}
 
   Spectrum trace(Ray ray, Sampler& sampler, PathWorker& worker) const noexcept override;
@@ -49,8 +51,9 @@ class GuidedPathLoop final : public PathLoop {
 
   Emission emission(const PathState& path, const Ray& ray, const SurfaceInteraction* hit) const noexcept;
   bool survivesRoulette(PathState& path, Sampler& sampler, PathWorker& worker) const noexcept;
-  DirectLight sampleDirect(const SurfaceInteraction& si, const SurfaceBsdf& bsdf, const Distribution& guide,
-                           Sampler& sampler, RenderCounters& counters) const noexcept;
+  void absorb(PathState& path, float distance) const noexcept;
+  DirectLight sampleDirect(const PathState& path, const SurfaceInteraction& si, const SurfaceBsdf& bsdf,
+                           const Distribution& guide, Sampler& sampler, RenderCounters& counters) const noexcept;
   bool scatter(PathState& path, const SurfaceInteraction& si, const SurfaceBsdf& bsdf, const Distribution& guide,
                Sampler& sampler, PathWorker& worker, Ray& ray) const noexcept;
   bool pathEnds(const PathState& path, const SurfaceInteraction& si) const noexcept;
@@ -60,6 +63,7 @@ class GuidedPathLoop final : public PathLoop {
   Guides m_guides;
   IntegratorDescription m_settings;
   bool m_nee;
+  bool m_hasMedia;
   bool m_powerHeuristic;
 };
 
@@ -78,6 +82,8 @@ struct GuidedPathLoop<Guides>::PathState {
   float pdf = 0;                    ///< mixture density of the ray at `previous`, per solid angle
   float bsdfPdf = 0;                ///< the BSDF's own
   bool isDelta = true;  ///< light sampling at `previous` cannot find what the ray met: camera rays and delta scattering
+  MediumStack media;    ///< around the ray
+  Spectrum arriving{1.0f};  ///< share of the light on the ray that they leave
 };
 
 template <GuideSource Guides>
@@ -94,13 +100,16 @@ Spectrum GuidedPathLoop<Guides>::trace(Ray ray, Sampler& sampler, PathWorker& wo
       *worker.firstHit = {si.material ? si.material->albedo(si) : Spectrum(0.0f), si.frame.n, si.distance};
     if (worker.records && hit) worker.recorder.setDistance(si.distance);
 
+    // What media leave of the light on the way
+    if (m_hasMedia) absorb(path, hit ? si.distance : std::numeric_limits<float>::infinity());
+
     // Emission, weighted against light sampling
     const Emission emitted = emission(path, ray, hit ? &si : nullptr);
     const Spectrum weighted = emitted.radiance * misWeight(path.pdf, emitted.lightPdf);
     path.radiance += path.throughput * weighted;
     if constexpr (Guides::kGuides)
       path.unguidedRadiance += path.unguidedThroughput * emitted.radiance * misWeight(path.bsdfPdf, emitted.lightPdf);
-    if (worker.records) worker.recorder.addEmission(weighted);
+    if (worker.records) worker.recorder.addEmission(weighted * path.arriving);
 
     // The end of the path
     if (!hit || pathEnds(path, si)) break;
@@ -113,10 +122,10 @@ Spectrum GuidedPathLoop<Guides>::trace(Ray ray, Sampler& sampler, PathWorker& wo
 
     // Direct light
     if (m_nee && hasSmooth) {
-      const DirectLight direct = sampleDirect(si, bsdf, guide, sampler, worker.counters);
+      const DirectLight direct = sampleDirect(path, si, bsdf, guide, sampler, worker.counters);
       path.radiance += path.throughput * direct.radiance;
       if constexpr (Guides::kGuides) path.unguidedRadiance += path.unguidedThroughput * direct.unguided;
-      if (worker.records) worker.recorder.addDirect(direct.radiance);
+      if (worker.records) worker.recorder.addDirect(direct.radiance * path.arriving);
     }
 
     // The next direction
@@ -161,7 +170,14 @@ bool GuidedPathLoop<Guides>::survivesRoulette(PathState& path, Sampler& sampler,
 }
 
 template <GuideSource Guides>
-auto GuidedPathLoop<Guides>::sampleDirect(const SurfaceInteraction& si, const SurfaceBsdf& bsdf,
+void GuidedPathLoop<Guides>::absorb(PathState& path, float distance) const noexcept {
+  path.arriving = path.media.transmittance(distance);
+  path.throughput *= path.arriving;
+  path.unguidedThroughput *= path.arriving;
+}
+
+template <GuideSource Guides>
+auto GuidedPathLoop<Guides>::sampleDirect(const PathState& path, const SurfaceInteraction& si, const SurfaceBsdf& bsdf,
                                           const Distribution& guide, Sampler& sampler,
                                           RenderCounters& counters) const noexcept -> DirectLight {
   const float uLight = sampler.next1D();
@@ -171,7 +187,8 @@ auto GuidedPathLoop<Guides>::sampleDirect(const SurfaceInteraction& si, const Su
   if (isBlack(f.bsdfCos)) return {};
   ++counters.shadowRays;
   if (!m_scene.visible(si, light)) return {};
-  const Spectrum unweighted = f.bsdfCos * light.radiance * (1 / light.pdf);
+  Spectrum unweighted = f.bsdfCos * light.radiance * (1 / light.pdf);
+  if (m_hasMedia) unweighted *= path.media.transmittance(light.distance);
   if (light.isDelta) return {unweighted, unweighted};
   return {unweighted * misWeight(light.pdf, guiding::mixturePdf(guide, f.pdf, light.wi)),
           unweighted * misWeight(light.pdf, f.pdf)};
@@ -197,8 +214,9 @@ bool GuidedPathLoop<Guides>::scatter(PathState& path, const SurfaceInteraction& 
   path.bsdfPdf = draw.bsdfPdf;
   path.isDelta = draw.isDelta;
   if (worker.records)
-    worker.recorder.scatter(
-        {si.p, draw.wi, draw.weight, draw.bsdfCos, draw.pdf, draw.bsdfPdf, draw.guidePdf, draw.isDelta});
+    worker.recorder.scatter({si.p, draw.wi, draw.weight * path.arriving, draw.bsdfCos, draw.pdf, draw.bsdfPdf,
+                             draw.guidePdf, draw.isDelta});
+  if (m_hasMedia) path.media.pass(si, draw.wi);
   ray = m_scene.spawnRay(si, draw.wi);
   return true;
 }

@@ -124,9 +124,11 @@ int readMaterialObject(Context& context, const Node& node, const std::string& na
   const auto found = kReaders.find(type.string());
   if (found == kReaders.end())
     type.fail(fmt::format("'{}' is no known material{}", type.string(), suggestName(type.string(), keysOf(kReaders))));
-  Kind kind = found->second(context, reader);
+  MaterialDescription material{name, found->second(context, reader), node.source()};
+  if (std::holds_alternative<DielectricMaterial>(material.kind))
+    material.absorption = reader.color("absorption", material.absorption);
   reader.finish();
-  context.scene.materials.push_back({name, std::move(kind), node.source()});
+  context.scene.materials.push_back(std::move(material));
   return static_cast<int>(context.scene.materials.size()) - 1;
 }
 

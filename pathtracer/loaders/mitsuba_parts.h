@@ -11,6 +11,9 @@ namespace pt::mitsuba {
 /// wraps, or grey.
 int readBsdf(Context& context, const Object& object);
 
+/// Absorption coefficient of a homogeneous medium.
+Spectrum readAbsorption(Context& context, const Object& medium);
+
 /// Adds the shape (or, for a shapegroup, the group) to the scene.
 void readShape(Context& context, const Object& object);
 

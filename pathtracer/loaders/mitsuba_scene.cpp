@@ -33,7 +33,7 @@ void readChild(Context& context, const Object& object) {
     readSensor(context, object);
   } else if (object.tag == "integrator") {
     readIntegrator(context, object);
-  } else if (object.tag != "bsdf" && object.tag != "texture") {  // those are read when a shape refers to them
+  } else if (object.tag != "bsdf" && object.tag != "texture" && object.tag != "medium") {  // read where referred to
     context.leaveOut(object.source, fmt::format("{} '{}' is not supported", object.tag, object.type));
   }
 }

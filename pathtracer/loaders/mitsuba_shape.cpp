@@ -75,6 +75,34 @@ int readShapeMaterial(Context& context, Reader& reader, bool emits) {
   return static_cast<int>(context.scene.materials.size()) - 1;
 }
 
+/// Absorption of the medium inside.
+Spectrum readInterior(Context& context, Reader& reader) {
+  Spectrum absorption(0.0f);
+  reader.children("medium");
+  for (const Child& child : reader.object().children) {
+    if (child.object->tag != "medium") continue;
+    try {
+      if (canonicalName(child.name) != "interior")
+        throw UnsupportedError(child.object->source, "a medium that is not the 'interior' of a shape is not supported");
+      absorption = readAbsorption(context, *child.object);
+    } catch (const UnsupportedError& error) {
+      context.leaveOut(error, "clear instead");
+    }
+  }
+  return absorption;
+}
+
+/// The shape's material with the medium behind it, if there is one.
+int addMedium(Context& context, Reader& reader, int material) {
+  const Spectrum absorption = readInterior(context, reader);
+  if (isBlack(absorption)) return material;
+  if (material == kNone) failAt(reader.object().source, fmt::format("{} has a medium, but no bsdf", reader.title()));
+  MaterialDescription filled = context.scene.materials[std::size_t(material)];
+  filled.absorption = absorption;
+  context.scene.materials.push_back(std::move(filled));
+  return static_cast<int>(context.scene.materials.size()) - 1;
+}
+
 std::optional<SpectrumParameter> readShapeEmission(Context& context, Reader& reader) {
   const auto emitters = reader.children("emitter");
   if (emitters.empty()) return std::nullopt;
@@ -101,6 +129,7 @@ ShapeDescription readOneShape(Context& context, const Object& object) {
     shape.flipNormals = reader.boolean("flip_normals", false);
     shape.emission = readShapeEmission(context, reader);
     shape.material = readShapeMaterial(context, reader, shape.emission.has_value());
+    shape.material = addMedium(context, reader, shape.material);
   }
   reader.finish();
   return shape;

@@ -41,6 +41,10 @@ class Material {
 
   const Traits& traits() const noexcept { return m_traits; }
 
+  /// Absorption coefficient of the medium behind the surface, per unit of length; 0: clear.
+  const Spectrum& absorption() const noexcept { return m_absorption; }
+  void setAbsorption(const Spectrum& absorption) noexcept { m_absorption = absorption; }
+
   /// Relative index of refraction that a scattering from wo to wi crosses; 1 for reflection. Told by the sides alone,
   /// so that it also holds for directions that the material did not sample itself.
   float etaCrossed(const Vec3& wo, const Vec3& wi) const noexcept {
@@ -67,6 +71,7 @@ class Material {
 
  private:
   Traits m_traits;
+  Spectrum m_absorption{0.0f};
 };
 
 /// One Material per description, in order. Throws InputError (with the description's source) for impossible parameters.

@@ -54,6 +54,7 @@ class SceneBuilder {
       for (const auto& shape : group.shapes) validateShape(m_description, shape, true);
     m_data.origin = chooseOrigin(m_description);
     m_data.materials = createMaterials(m_description);
+    fillMedia();
     addShapes();
     addInstances();
     buildAccel();
@@ -73,6 +74,17 @@ class SceneBuilder {
       used.push_back(&m_description.groups[std::size_t(instance->group)]);
     }
     return used;
+  }
+
+  void fillMedia() {
+    for (std::size_t i = 0; i < m_data.materials.size(); ++i) {
+      const MaterialDescription& material = m_description.materials[i];
+      if (!isEmission(material.absorption))
+        throw InputError(material.source + ": an absorption coefficient must be finite and not negative");
+      if (!isBlack(material.absorption) && !m_data.materials[i]->traits().transmits)
+        throw InputError(material.source + ": a medium is of no use behind a surface that lets no light through");
+      m_data.materials[i]->setAbsorption(material.absorption);
+    }
   }
 
   void addShapes() {

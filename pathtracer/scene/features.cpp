@@ -86,6 +86,8 @@ void listMaterials(const SceneData& data, const SceneFeatures& features, Lists& 
             "no perfectly specular material");
   lists.add("transmitting materials", count([](auto* m) { return m->traits().transmits; }), "transmission",
             "nothing transmits light");
+  lists.add("absorbing media", count([](auto* m) { return !isBlack(m->absorption()); }), "absorption inside of media",
+            "nothing absorbs");
   if (features.hasTextures)
     lists.add("textured shapes", countSurfaces(data, [](auto& s) { return s.needsUvs; }), "", "");
   else
@@ -114,7 +116,10 @@ SceneFeatures listFeatures(const SceneData& data) {
   SceneFeatures features;
   features.hasSampleableLights = !data.lights.empty();
   features.hasEnvironment = data.environment != nullptr;
-  for (const Material* material : usedMaterials(data)) features.hasSmoothMaterials |= material->traits().hasSmooth;
+  for (const Material* material : usedMaterials(data)) {
+    features.hasSmoothMaterials |= material->traits().hasSmooth;
+    features.hasMedia |= !isBlack(material->absorption());
+  }
   features.hasTextures = countSurfaces(data, [](auto& s) { return s.needsUvs; }) > 0;
   features.hasInstances = !data.instances.empty();
 

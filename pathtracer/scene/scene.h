@@ -21,6 +21,7 @@ struct SceneFeatures {
   bool hasSmoothMaterials = false;  ///< something for guiding to learn
   bool hasTextures = false;
   bool hasInstances = false;
+  bool hasMedia = false;             ///< that absorb
   std::vector<std::string> present;  ///< e.g. "area lights (5)"
   std::vector<std::string> leftOut;  ///< e.g. "environment sampling (no environment)"
 };

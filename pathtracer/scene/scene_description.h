@@ -107,6 +107,9 @@ struct MaterialDescription {
                TwoSidedMaterial>
       kind;
   SourceLocation source;
+  /// Of the medium behind a surface that lets light through, per unit of length and channel: exp(-absorption * way) of
+  /// the light is left. 0: clear.
+  Spectrum absorption{0.0f};
 };
 
 // ---------------------------------------------------------------- shapes

@@ -116,6 +116,8 @@ TEST_CASE("materials of every type") {
   CHECK(glass.intIor == Approx(1.5046));
   CHECK(glass.extIor == Approx(1.333));
   CHECK(glass.specularTransmittance.value.y == 0.5f);
+  const auto tinted = load(R"({"materials": {"m": {"type": "dielectric", "absorption": [1, 2, 3]}}})");
+  CHECK(tinted.materials.at(0).absorption == Spectrum(1, 2, 3));
   CHECK(materialOf<ThinDielectricMaterial>(R"({"type": "thinDielectric", "intIor": 1.3})").intIor == 1.3f);
   const auto plastic =
       materialOf<PlasticMaterial>(R"({"type": "plastic", "nonlinear": true, "diffuseReflectance": 0.2, "alpha": 0.3})");

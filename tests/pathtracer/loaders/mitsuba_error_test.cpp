@@ -92,9 +92,12 @@ TEST_CASE("objects where they do not belong") {
   CHECK(errorOf("<sensor type=\"perspective\"/>\n<sensor type=\"perspective\"/>") ==
         "a.xml:3: the scene has a second sensor; the first is at a.xml:2");
   CHECK(errorOf(R"(<shape type="sphere"><medium name="interior" type="homogeneous"/></shape>)") ==
-        "a.xml:2: medium 'homogeneous' inside of shape 'sphere' is not supported; --skip-unsupported leaves it out");
-  CHECK(errorOf("<medium type=\"homogeneous\"/>") ==
-        "a.xml:2: medium 'homogeneous' is not supported; --skip-unsupported leaves it out");
+        "a.xml:2: medium 'homogeneous' scatters light, which is not supported: a medium may only absorb (albedo 0); "
+        "--skip-unsupported leaves it out");
+  CHECK(errorOf(R"(<shape type="sphere"><medium name="exterior" type="homogeneous"/></shape>)")
+            .starts_with("a.xml:2: a medium that is not the 'interior' of a shape is not supported"));
+  CHECK(errorOf(R"(<shape type="sphere"><medium name="interior" type="heterogeneous"/></shape>)")
+            .starts_with("a.xml:2: medium 'heterogeneous' is not supported"));
 }
 
 TEST_CASE("unsupported plugins fail with plugin, file and line, or are left out and listed") {

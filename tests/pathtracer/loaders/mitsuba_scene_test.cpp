@@ -246,3 +246,36 @@ TEST_CASE("meshes of a Mitsuba file: v, face normals, sharing") {
   CHECK(folder.errorOf("b.xml", mitsubaScene("<shape type=\"ply\"/>")) ==
         "b.xml:2: shape 'ply' lacks the property 'filename'");
 }
+
+TEST_CASE("absorbing media inside of shapes, in both spellings") {
+  const auto absorptionOf = [](const std::string& medium, const std::string& version) {
+    const auto scene = load(R"(<medium type="homogeneous" id="tea">)" + medium + R"(</medium>
+      <shape type="sphere"><ref name="interior" id="tea"/><bsdf type="dielectric"/></shape>
+      <shape type="sphere"><bsdf type="dielectric"/></shape>)",
+                            version);
+    CHECK(scene.notes.empty());
+    CHECK(scene.materials.at(static_cast<std::size_t>(scene.shapes.at(1).material)).absorption == Spectrum(0.0f));
+    const auto& material = scene.materials.at(static_cast<std::size_t>(scene.shapes.at(0).material));
+    CHECK(std::holds_alternative<DielectricMaterial>(material.kind));
+    return material.absorption;
+  };
+  CHECK(isNear(absorptionOf(R"(<rgb name="sigmaA" value="1 2 3"/><rgb name="sigmaS" value="0"/>)", "0.6.0"),
+               Vec3(1, 2, 3)));
+  CHECK(isNear(absorptionOf(R"(<rgb name="sigmaT" value="1 2 3"/><float name="scale" value="2"/>)", "0.5.0"),
+               Vec3(2, 4, 6)));
+  CHECK(isNear(
+      absorptionOf(R"(<float name="sigma_t" value="4"/><float name="albedo" value="0"/><phase type="isotropic"/>)",
+                   "3.0.0"),
+      Vec3(4, 4, 4)));
+
+  SceneFolder folder;
+  const auto error = [&](const std::string& medium) {
+    return folder.errorOf("a.xml", mitsubaScene(R"(<shape type="sphere"><medium name="interior" type="homogeneous">)" +
+                                                    medium + R"(</medium><bsdf type="dielectric"/></shape>)",
+                                                "0.6.0"));
+  };
+  CHECK(error("").find("the presets of medium 'homogeneous' scatter light") != std::string::npos);
+  CHECK(error(R"(<rgb name="sigmaS" value="1"/>)").find("scatters light, which is not supported") != std::string::npos);
+  CHECK(error(R"(<rgb name="sigmaT" value="1"/><rgb name="sigmaA" value="1"/>)").find("give one pair or the other") !=
+        std::string::npos);
+}
