@@ -117,7 +117,7 @@ Kind readPlastic(Context&, Reader& reader) {
 Kind readRoughPlastic(Context& context, Reader& reader) {
   PlasticMaterial plastic = readPlasticBase(reader);
   plastic.roughness = readRoughness(reader);
-  plastic.roughBoundary = context.isOld() ? RoughBoundary::Transmitted : RoughBoundary::NotReflected;
+  plastic.roughBoundary = context.isOld() ? RoughBoundary::KeepsMasked : RoughBoundary::LosesMasked;
   return plastic;
 }
 

@@ -68,8 +68,7 @@ RoughTransmittance::RoughTransmittance(MicrofacetDistribution distribution, floa
   for (int i = 0; i <= kIntervals; ++i) {
     const double root = double(i) / kIntervals;
     const float cosTheta = std::max(1e-4f, float(root * root));
-    const double t = boundary == RoughBoundary::Transmitted ? transmittance(facets, eta, cosTheta)
-                                                            : 1 - reflectance(facets, eta, cosTheta);
+    const double t = transmittance(facets, eta, cosTheta);
     m_table[i] = float(t);
     // Simpson's rule for the integral of 2 cos T(cos) dcos, cos = root^2.
     const double weight = i == 0 || i == kIntervals ? 1 : i % 2 == 1 ? 4 : 2;
@@ -78,9 +77,9 @@ RoughTransmittance::RoughTransmittance(MicrofacetDistribution distribution, floa
   // From the denser side the table has an edge that the rule does not see; reciprocity gives the integral from the
   // other side.
   m_diffuse = eta >= 1 ? float(integral / (3 * kIntervals))
-                       : RoughTransmittance(distribution, alpha, 1 / eta, boundary).diffuse() * (eta * eta);
+                       : RoughTransmittance(distribution, alpha, 1 / eta).diffuse() * (eta * eta);
   m_insideReflectance =
-      boundary == RoughBoundary::Transmitted ? 1 - m_diffuse / (eta * eta) : float(sumOfReflectances(facets, 1 / eta));
+      boundary == RoughBoundary::KeepsMasked ? 1 - m_diffuse / (eta * eta) : float(sumOfReflectances(facets, 1 / eta));
 }
 
 std::shared_ptr<const RoughTransmittance> RoughTransmittanceCache::get(MicrofacetDistribution distribution, float alpha,

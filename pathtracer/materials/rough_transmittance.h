@@ -16,7 +16,7 @@ class RoughTransmittance {
  public:
   /// `eta` > 0: index of the far side over that of the side of incidence.
   RoughTransmittance(MicrofacetDistribution distribution, float alpha, float eta,
-                     RoughBoundary boundary = RoughBoundary::Transmitted);
+                     RoughBoundary boundary = RoughBoundary::KeepsMasked);
 
   /// From direction cosTheta in (0, 1], in [0, 1].
   float directional(float cosTheta) const noexcept {

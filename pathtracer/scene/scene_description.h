@@ -84,17 +84,17 @@ struct ThinDielectricMaterial {
   float intIor = 1.5046f, extIor = 1.000277f;
   SpectrumParameter specularReflectance{1.0f}, specularTransmittance{1.0f};
 };
-/// How much light enters the base of a rough plastic, and how much is kept there.
+/// What becomes of light inside a rough plastic that meets the boundary from there and is masked by its facets.
 enum class RoughBoundary {
-  Transmitted,   ///< what the boundary's facets refract and do not mask, integrated exactly (Mitsuba 0.6)
-  NotReflected,  ///< all that the facets do not reflect, so also what they mask; Mitsuba 2 and 3, with their sums
+  KeepsMasked,  ///< all that does not leave returns to the base (Mitsuba 0.6)
+  LosesMasked   ///< only what facets reflect returns; Mitsuba 2 and 3, with their sum over 64 angles
 };
 struct PlasticMaterial {
   float intIor = 1.49f, extIor = 1.000277f;
   SpectrumParameter diffuseReflectance{0.5f}, specularReflectance{1.0f};
   bool nonlinear = false;  ///< account for colour shifts of light that bounces inside
   std::optional<Roughness> roughness;
-  RoughBoundary roughBoundary = RoughBoundary::Transmitted;
+  RoughBoundary roughBoundary = RoughBoundary::KeepsMasked;
 };
 /// Indices into SceneDescription::materials; `back` may equal `front`.
 struct TwoSidedMaterial {
