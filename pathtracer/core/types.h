@@ -16,6 +16,7 @@ using Vec3 = Imath::V3f;
 using Box3 = Imath::Box3f;
 /// Row vectors, as Imath has them: p * M. Loaders transpose the column-vector matrices of scene files.
 using Matrix4 = Imath::M44f;
+using Matrix3 = Imath::M33f;
 /// Linear Rec.709.
 using Spectrum = Imath::C3f;
 

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/replace_file.h"
+#include "core/srgb.h"
 #include "scene/scene_description.h"
 
 namespace pt {
@@ -21,14 +22,6 @@ namespace fs = std::filesystem;
 [[noreturn]] void failToWrite(const fs::path& file, std::string reason) {
   std::replace(reason.begin(), reason.end(), '\n', ' ');
   throw WorkError(fmt::format("{}: cannot be written: {}", file.string(), reason));
-}
-
-float srgbToLinear(float x) {
-  return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
-}
-
-float linearToSrgb(float x) {
-  return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
 }
 
 /// Where R, G and B are among the file's channels.

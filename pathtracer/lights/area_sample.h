@@ -2,6 +2,7 @@
 
 #include "core/ray_offset.h"
 #include "lights/light.h"
+#include "textures/textured.h"
 
 namespace pt {
 
@@ -38,9 +39,9 @@ inline float areaToSolidAngle(const Vec3& p, const SurfaceInteraction& hit, floa
   return std::isfinite(pdf) ? pdf : 0;
 }
 
-/// Emission to the side of the shading normal.
-inline Spectrum oneSided(const SurfaceInteraction& hit, const Vec3& wo, const Spectrum& radiance) noexcept {
-  return hit.frame.n.dot(wo) > 0 ? radiance : Spectrum(0.0f);
+/// Emission to the side of the shading normal. Textures are read as sharply as when the light is sampled.
+inline Spectrum oneSided(const SurfaceInteraction& hit, const Vec3& wo, const TexturedSpectrum& radiance) noexcept {
+  return hit.frame.n.dot(wo) > 0 ? radiance(TexturePoint{hit.uv}) : Spectrum(0.0f);
 }
 
 }  // namespace pt

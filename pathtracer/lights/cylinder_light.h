@@ -2,14 +2,15 @@
 
 #include "lights/light.h"
 #include "scene/quadrics.h"
+#include "textures/textured.h"
 
 namespace pt {
 
-/// An open cylinder that emits the same radiance from every point of its front. Points are chosen uniformly by area.
+/// An open cylinder that emits from its front. Points are chosen uniformly by area.
 class CylinderLight : public Light {
  public:
   /// The cylinder outlives the light.
-  CylinderLight(const Cylinder& cylinder, const Spectrum& radiance);
+  CylinderLight(const Cylinder& cylinder, const TexturedSpectrum& radiance);
 
   bool isDelta() const noexcept override { return false; }
   double power() const noexcept override;
@@ -19,7 +20,7 @@ class CylinderLight : public Light {
 
  private:
   const Cylinder& m_cylinder;
-  Spectrum m_radiance;
+  TexturedSpectrum m_radiance;
   float m_invArea;
   float m_extent;  ///< see AreaSample
 };

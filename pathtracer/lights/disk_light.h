@@ -2,14 +2,15 @@
 
 #include "lights/light.h"
 #include "scene/quadrics.h"
+#include "textures/textured.h"
 
 namespace pt {
 
-/// A disk or ellipse that emits the same radiance from every point of its front. Points are chosen uniformly by area.
+/// A disk or ellipse that emits from its front. Points are chosen uniformly by area.
 class DiskLight : public Light {
  public:
   /// The disk outlives the light.
-  DiskLight(const Disk& disk, const Spectrum& radiance);
+  DiskLight(const Disk& disk, const TexturedSpectrum& radiance);
 
   bool isDelta() const noexcept override { return false; }
   double power() const noexcept override;
@@ -19,7 +20,7 @@ class DiskLight : public Light {
 
  private:
   const Disk& m_disk;
-  Spectrum m_radiance;
+  TexturedSpectrum m_radiance;
   float m_invArea;
   float m_extent;  ///< see AreaSample
 };

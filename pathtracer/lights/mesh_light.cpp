@@ -5,7 +5,7 @@
 
 namespace pt {
 
-MeshLight::MeshLight(const Mesh& mesh, const Spectrum& radiance) : m_mesh(mesh), m_radiance(radiance) {
+MeshLight::MeshLight(const Mesh& mesh, const TexturedSpectrum& radiance) : m_mesh(mesh), m_radiance(radiance) {
   std::vector<double> areas;
   areas.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -18,7 +18,7 @@ MeshLight::MeshLight(const Mesh& mesh, const Spectrum& radiance) : m_mesh(mesh),
 }
 
 double MeshLight::power() const noexcept {
-  return double(kPi) * m_area * luminance(m_radiance);
+  return double(kPi) * m_area * luminance(m_radiance.mean());
 }
 
 LightSample MeshLight::sampleDirect(const Vec3& p, double uPart, const Vec2& u) const noexcept {
@@ -32,7 +32,7 @@ LightSample MeshLight::sampleDirect(const Vec3& p, double uPart, const Vec2& u) 
   if (m_mesh.hasNormals())
     front = m_mesh.normal(a) * (1 - uv.x - uv.y) + m_mesh.normal(b) * uv.x + m_mesh.normal(c) * uv.y;
   if (!(front.dot(p - sample.p) > 0)) return {};
-  return toLightSample(p, sample, m_invArea, m_radiance);
+  return toLightSample(p, sample, m_invArea, m_radiance(TexturePoint{m_mesh.uvAt({a, b, c}, uv)}));
 }
 
 float MeshLight::pdfDirect(const Vec3& p, const SurfaceInteraction& hit) const noexcept {

@@ -3,15 +3,16 @@
 #include "lights/alias_table.h"
 #include "lights/light.h"
 #include "scene/mesh.h"
+#include "textures/textured.h"
 
 namespace pt {
 
-/// A mesh that emits the same radiance from every point, to the side of its shading normal. Points are chosen uniformly
+/// A mesh that emits from every point, to the side of its shading normal. Points are chosen uniformly
 /// by area.
 class MeshLight : public Light {
  public:
   /// The mesh outlives the light.
-  MeshLight(const Mesh& mesh, const Spectrum& radiance);
+  MeshLight(const Mesh& mesh, const TexturedSpectrum& radiance);
 
   double area() const noexcept { return m_area; }
 
@@ -23,7 +24,7 @@ class MeshLight : public Light {
 
  private:
   const Mesh& m_mesh;
-  Spectrum m_radiance;
+  TexturedSpectrum m_radiance;
   AliasTable m_triangles;
   double m_area = 0;
   float m_invArea = 0;

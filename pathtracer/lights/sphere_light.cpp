@@ -15,7 +15,7 @@ double oneMinusCosMax(double ratio2) {
 }  // namespace
 
 double SphereLight::power() const noexcept {
-  return 4 * double(kPi) * double(kPi) * m_sphere.radius * m_sphere.radius * luminance(m_radiance);
+  return 4 * double(kPi) * double(kPi) * m_sphere.radius * m_sphere.radius * luminance(m_radiance.mean());
 }
 
 LightSample SphereLight::sampleDirect(const Vec3& p, double, const Vec2& u) const noexcept {
@@ -42,7 +42,7 @@ LightSample SphereLight::sampleCone(const Imath::V3d& toCenter, const Vec2& u) c
   // the radius.
   const double error = 8 * double(kHalfUlp) * (distance + maxAbs(Vec3(m_sphere.center))) / std::max(within, 1e-3);
   result.distance = float(std::max(0.0, length - error));
-  result.radiance = m_radiance;
+  result.radiance = radianceAt(toCenter, result.wi, length);
   result.pdf = pdf;
   return result;
 }
@@ -61,9 +61,14 @@ LightSample SphereLight::sampleInside(const Imath::V3d& toCenter, const Vec2& u)
   const double error = 16 * double(kHalfUlp) * (m_sphere.radius + maxAbs(Vec3(m_sphere.center)));
   if (!(length > error)) return LightSample();
   result.distance = float(length - error);
-  result.radiance = m_radiance;
+  result.radiance = radianceAt(toCenter, result.wi, length);
   result.pdf = kUniformSpherePdf;
   return result;
+}
+
+Spectrum SphereLight::radianceAt(const Imath::V3d& toCenter, const Vec3& wi, double length) const noexcept {
+  if (m_radiance.isConstant()) return m_radiance(TexturePoint());
+  return m_radiance(TexturePoint{m_sphere.uv((Imath::V3d(wi) * length - toCenter).normalized())});
 }
 
 float SphereLight::pdfDirect(const Vec3& p, const SurfaceInteraction&) const noexcept {

@@ -2,16 +2,17 @@
 
 #include "lights/light.h"
 #include "scene/quadrics.h"
+#include "textures/textured.h"
 
 namespace pt {
 
-/// A sphere that emits the same radiance from every point, outwards, or inwards where its normals are flipped.
+/// A sphere that emits from every point, outwards, or inwards where its normals are flipped.
 /// Directions are uniform in the cone that it fills; from inside, uniform over the sphere of directions [Pharr et al.
 /// 2016, Sec. 14.2.2].
 class SphereLight : public Light {
  public:
   /// The sphere outlives the light.
-  SphereLight(const Sphere& sphere, const Spectrum& radiance) : m_sphere(sphere), m_radiance(radiance) {}
+  SphereLight(const Sphere& sphere, const TexturedSpectrum& radiance) : m_sphere(sphere), m_radiance(radiance) {}
 
   bool isDelta() const noexcept override { return false; }
   double power() const noexcept override;
@@ -21,10 +22,12 @@ class SphereLight : public Light {
 
  private:
   LightSample sampleCone(const Imath::V3d& toCenter, const Vec2& u) const noexcept;
+  /// Of the point in direction wi, as far as `length`, from where the centre lies at `toCenter`.
+  Spectrum radianceAt(const Imath::V3d& toCenter, const Vec3& wi, double length) const noexcept;
   LightSample sampleInside(const Imath::V3d& toCenter, const Vec2& u) const noexcept;
 
   const Sphere& m_sphere;
-  Spectrum m_radiance;
+  TexturedSpectrum m_radiance;
 };
 
 }  // namespace pt

@@ -1,5 +1,7 @@
 #include "loaders/color.h"
 
+#include "core/srgb.h"
+
 #include <charconv>
 #include <cmath>
 #include <functional>
@@ -77,10 +79,6 @@ double interpolate(std::span<const SpectralSample> samples, double nanometers) {
   const SpectralSample &a = samples[i - 1], &b = samples[i];
   const double t = (nanometers - a.nanometers) / (b.nanometers - a.nanometers);
   return a.value * (1 - t) + b.value * t;
-}
-
-float srgbToLinear(float c) {
-  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
 }
 
 }  // namespace

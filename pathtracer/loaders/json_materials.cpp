@@ -31,27 +31,30 @@ float readIndex(ObjectReader& reader, const std::string& key, const char* fallba
 }
 
 /// Rough where "alpha" is given.
-std::optional<Roughness> readRoughness(ObjectReader& reader) {
+std::optional<Roughness> readRoughness(Context& context, ObjectReader& reader) {
   const auto alpha = reader.find("alpha");
   const auto distribution = reader.find("distribution");
   const auto sampleVisible = reader.find("sampleVisible");
+  const auto alphaV = reader.find("alphaV");
   if (!alpha) {
+    if (alphaV) alphaV->fail("needs a roughness along u: give 'alpha' too");
     if (distribution) distribution->fail("needs a roughness: give 'alpha' too");
     if (sampleVisible) sampleVisible->fail("needs a roughness: give 'alpha' too");
     return std::nullopt;
   }
   Roughness roughness;
-  roughness.alpha = alpha->positive();
+  roughness.alpha = alpha->isNumber() ? alpha->positive() : readNumber(context, reader, "alpha", 0);
+  if (alphaV) roughness.alphaV = readNumber(context, reader, "alphaV", 0);
   roughness.distribution = static_cast<MicrofacetDistribution>(reader.choice("distribution", {"beckmann", "ggx"}, 1));
   roughness.sampleVisible = reader.boolean("sampleVisible", true);
   return roughness;
 }
 
-Kind readDiffuse(Context&, ObjectReader& reader) {
-  return DiffuseMaterial{reader.color("reflectance", Spectrum(0.5f))};
+Kind readDiffuse(Context& context, ObjectReader& reader) {
+  return DiffuseMaterial{readSpectrum(context, reader, "reflectance", Spectrum(0.5f))};
 }
 
-Kind readConductor(Context&, ObjectReader& reader) {
+Kind readConductor(Context& context, ObjectReader& reader) {
   ConductorMaterial conductor;
   const auto eta = reader.find("eta"), k = reader.find("k"), preset = reader.find("preset");
   if (preset && (eta || k)) preset->fail("excludes eta and k: give one or the other");
@@ -68,39 +71,39 @@ Kind readConductor(Context&, ObjectReader& reader) {
   const float exterior = readIndex(reader, "extIor", "vacuum");
   conductor.eta /= exterior;
   conductor.k /= exterior;
-  conductor.specularReflectance = reader.color("specularReflectance", Spectrum(1.0f));
-  conductor.roughness = readRoughness(reader);
+  conductor.specularReflectance = readSpectrum(context, reader, "specularReflectance", Spectrum(1.0f));
+  conductor.roughness = readRoughness(context, reader);
   return conductor;
 }
 
 template <class Dielectric>
-Dielectric readDielectricBase(ObjectReader& reader) {
+Dielectric readDielectricBase(Context& context, ObjectReader& reader) {
   Dielectric dielectric;
   dielectric.intIor = readIndex(reader, "intIor", "bk7");
   dielectric.extIor = readIndex(reader, "extIor", "air");
-  dielectric.specularReflectance = reader.color("specularReflectance", Spectrum(1.0f));
-  dielectric.specularTransmittance = reader.color("specularTransmittance", Spectrum(1.0f));
+  dielectric.specularReflectance = readSpectrum(context, reader, "specularReflectance", Spectrum(1.0f));
+  dielectric.specularTransmittance = readSpectrum(context, reader, "specularTransmittance", Spectrum(1.0f));
   return dielectric;
 }
 
-Kind readDielectric(Context&, ObjectReader& reader) {
-  auto dielectric = readDielectricBase<DielectricMaterial>(reader);
-  dielectric.roughness = readRoughness(reader);
+Kind readDielectric(Context& context, ObjectReader& reader) {
+  auto dielectric = readDielectricBase<DielectricMaterial>(context, reader);
+  dielectric.roughness = readRoughness(context, reader);
   return dielectric;
 }
 
-Kind readThinDielectric(Context&, ObjectReader& reader) {
-  return readDielectricBase<ThinDielectricMaterial>(reader);
+Kind readThinDielectric(Context& context, ObjectReader& reader) {
+  return readDielectricBase<ThinDielectricMaterial>(context, reader);
 }
 
-Kind readPlastic(Context&, ObjectReader& reader) {
+Kind readPlastic(Context& context, ObjectReader& reader) {
   PlasticMaterial plastic;
   plastic.intIor = readIndex(reader, "intIor", "polypropylene");
   plastic.extIor = readIndex(reader, "extIor", "air");
-  plastic.diffuseReflectance = reader.color("diffuseReflectance", Spectrum(0.5f));
-  plastic.specularReflectance = reader.color("specularReflectance", Spectrum(1.0f));
+  plastic.diffuseReflectance = readSpectrum(context, reader, "diffuseReflectance", Spectrum(0.5f));
+  plastic.specularReflectance = readSpectrum(context, reader, "specularReflectance", Spectrum(1.0f));
   plastic.nonlinear = reader.boolean("nonlinear", false);
-  plastic.roughness = readRoughness(reader);
+  plastic.roughness = readRoughness(context, reader);
   return plastic;
 }
 
@@ -112,10 +115,69 @@ Kind readTwoSided(Context& context, ObjectReader& reader) {
   return twoSided;
 }
 
+Kind readRoughDiffuse(Context& context, ObjectReader& reader) {
+  RoughDiffuseMaterial matt;
+  matt.reflectance = readSpectrum(context, reader, "reflectance", Spectrum(0.5f));
+  matt.alpha = readNumber(context, reader, "alpha", 0.2f);
+  matt.fastApproximation = reader.boolean("fastApproximation", false);
+  return matt;
+}
+
+Kind readMask(Context& context, ObjectReader& reader) {
+  MaskMaterial mask;
+  mask.material = readMaterial(context, reader.require("material"));
+  mask.opacity = readNumber(context, reader, "opacity", 0.5f);
+  return mask;
+}
+
+Kind readBlend(Context& context, ObjectReader& reader) {
+  BlendMaterial blend;
+  blend.first = readMaterial(context, reader.require("first"));
+  blend.second = readMaterial(context, reader.require("second"));
+  blend.weight = readNumber(context, reader, "weight", 0.5f);
+  return blend;
+}
+
+/// Height and normal maps are linear unless they say otherwise.
+template <class Material>
+Kind readTurned(Context& context, ObjectReader& reader) {
+  Material turned;
+  turned.material = readMaterial(context, reader.require("material"));
+  turned.texture = readTexture(context, reader.require("texture"), TextureEncoding::Linear);
+  turned.scale = reader.number("scale", 1);
+  return turned;
+}
+
+Kind readPrincipled(Context& context, ObjectReader& reader) {
+  PrincipledMaterial m;
+  m.baseColor = readSpectrum(context, reader, "baseColor", Spectrum(0.5f));
+  m.metallic = readNumber(context, reader, "metallic", 0);
+  m.roughness = readNumber(context, reader, "roughness", 0.5f);
+  m.anisotropy = reader.number("anisotropy", 0);
+  m.ior = reader.find("ior") ? readIndex(reader, "ior", "") : m.ior;
+  m.specular = readSpectrum(context, reader, "specular", Spectrum(1.0f));
+  m.transmission = readNumber(context, reader, "transmission", 0);
+  m.thin = reader.boolean("thin", false);
+  m.sheen = readSpectrum(context, reader, "sheen", Spectrum(0.0f));
+  m.clearcoat = readNumber(context, reader, "clearcoat", 0);
+  m.clearcoatRoughness = readNumber(context, reader, "clearcoatRoughness", 0);
+  return m;
+}
+
 const std::map<std::string, std::function<Kind(Context&, ObjectReader&)>> kReaders = {
-    {"diffuse", readDiffuse},       {"conductor", readConductor},
-    {"dielectric", readDielectric}, {"thinDielectric", readThinDielectric},
-    {"plastic", readPlastic},       {"twoSided", readTwoSided},
+    {"diffuse", readDiffuse},
+    {"conductor", readConductor},
+    {"dielectric", readDielectric},
+    {"thinDielectric", readThinDielectric},
+    {"plastic", readPlastic},
+    {"twoSided", readTwoSided},
+    {"roughDiffuse", readRoughDiffuse},
+    {"mask", readMask},
+    {"blend", readBlend},
+    {"bump", readTurned<BumpMaterial>},
+    {"normalMap", readTurned<NormalMapMaterial>},
+    {"principled", readPrincipled},
+    {"null", [](Context&, ObjectReader&) { return NullMaterial{}; }},
 };
 
 int readMaterialObject(Context& context, const Node& node, const std::string& name) {

@@ -14,9 +14,18 @@ struct Context {
   FileSearch search;
   MeshLibrary meshes;
   SceneDescription scene;
-  std::map<std::string, Node> materialNodes, groupNodes;  ///< by name
-  std::map<std::string, int> materials, groups;           ///< read already; kNone while being read
+  std::map<std::string, Node> textureNodes, materialNodes, groupNodes;  ///< by name
+  std::map<std::string, int> materials, groups;                         ///< read already; kNone while being read
 };
+
+/// A colour, or {"texture": name or object, "scale": colour}.
+SpectrumParameter readSpectrum(Context& context, ObjectReader& reader, const std::string& key,
+                               const Spectrum& fallback);
+SpectrumParameter readSpectrum(Context& context, const Node& node);
+/// A number, or {"texture": name or object, "scale": number}; pictures are linear unless they say otherwise.
+FloatParameter readNumber(Context& context, ObjectReader& reader, const std::string& key, float fallback);
+/// A texture's name or the texture itself; index into scene.textures.
+int readTexture(Context& context, const Node& node, TextureEncoding encoding);
 
 /// A material's name or the material itself; index into scene.materials.
 int readMaterial(Context& context, const Node& node);

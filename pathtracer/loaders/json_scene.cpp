@@ -13,6 +13,8 @@ using namespace json;
 /// Materials and groups are read when something refers to them, so that they may stand in any order; this reads the
 /// others too, for their errors.
 void readNamed(Context& context, ObjectReader& root) {
+  if (const auto textures = root.find("textures"))
+    for (const auto& [name, node] : textures->members()) context.textureNodes.emplace(name, node);
   if (const auto materials = root.find("materials"))
     for (const auto& [name, node] : materials->members()) context.materialNodes.emplace(name, node);
   if (const auto groups = root.find("groups"))

@@ -91,7 +91,7 @@ ShapeDescription readShape(Context& context, const Node& node) {
   shape.toWorld = readTransform(reader.find("transform"));
   if (!std::holds_alternative<InstanceShape>(shape.kind)) {
     shape.flipNormals = reader.boolean("flipNormals", false);
-    if (const auto emission = reader.find("emission")) shape.emission = emission->color();
+    if (const auto emission = reader.find("emission")) shape.emission = readSpectrum(context, *emission);
     // A lamp may do without a material and then reflects nothing.
     if (const auto material = shape.emission ? reader.find("material") : reader.require("material"))
       shape.material = readMaterial(context, *material);

@@ -83,12 +83,12 @@ void readEmitter(Context& context, const Object& object) {
   }
 }
 
-Spectrum readAreaEmitter(Context& context, const Object& object) {
+SpectrumParameter readAreaEmitter(Context& context, const Object& object) {
   if (object.type != "area")
     throw UnsupportedError(object.source, fmt::format("emitter '{}' of a shape is not supported", object.type));
   Reader reader(context, object);
   reader.ignore({"sampling_weight"});
-  const Spectrum radiance = reader.color("radiance", Spectrum(1.0f));
+  const SpectrumParameter radiance = reader.spectrum("radiance", Spectrum(1.0f));
   reader.finish();
   return radiance;
 }

@@ -14,13 +14,16 @@ int readBsdf(Context& context, const Object& object);
 /// Absorption coefficient of a homogeneous medium.
 Spectrum readAbsorption(Context& context, const Object& medium);
 
+/// A texture times a factor; each object is read once.
+SpectrumParameter readTexture(Context& context, const Object& object);
+
 /// Adds the shape (or, for a shapegroup, the group) to the scene.
 void readShape(Context& context, const Object& object);
 
 /// Adds a light that is not a shape.
 void readEmitter(Context& context, const Object& object);
 /// Radiance of an area light.
-Spectrum readAreaEmitter(Context& context, const Object& object);
+SpectrumParameter readAreaEmitter(Context& context, const Object& object);
 
 /// Camera, film, filter, sampler.
 void readSensor(Context& context, const Object& object);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/near_name.h"
+#include "loaders/mitsuba_parts.h"
 
 namespace pt::mitsuba {
 namespace {
@@ -100,13 +101,41 @@ Spectrum Reader::color(const std::string& name, const Spectrum& fallback) {
   if (property &&
       (std::holds_alternative<double>(property->value) || std::holds_alternative<std::int64_t>(property->value)))
     return Spectrum(number(name, 0));
-  for (const Child& child : m_object.children) {
-    if (child.name.empty() || canonicalName(child.name) != name) continue;
-    m_context.leaveOut(child.object->source,
-                       fmt::format("{} '{}' is not supported", child.object->tag, child.object->type));
-  }
+  if (const Object* child = childNamed(name))
+    m_context.leaveOut(child->source, fmt::format("{} '{}' is not supported as {} of {}", child->tag, child->type,
+                                                  spelled(name), title()));
   const Spectrum* value = findAs<Spectrum>(name, "a colour");
   return value ? *value : fallback;
+}
+
+const Object* Reader::childNamed(const std::string& name) {
+  m_asked.insert(name);
+  for (const Child& child : m_object.children)
+    if (!child.name.empty() && canonicalName(child.name) == name) return child.object;
+  return nullptr;
+}
+
+SpectrumParameter Reader::spectrum(const std::string& name, const Spectrum& fallback) {
+  const Object* texture = childNamed(name);
+  if (!texture) return color(name, fallback);
+  if (has(name)) fail(name, "is given twice: as a value and as a texture");
+  try {
+    return readTexture(m_context, *texture);
+  } catch (const UnsupportedError& error) {
+    m_context.textures.erase(texture);
+    m_context.leaveOut(error, fmt::format("{} of {} stays at its default", spelled(name), title()));
+    return fallback;
+  }
+}
+
+FloatParameter Reader::numberOrTexture(const std::string& name, float fallback) {
+  if (!childNamed(name)) {
+    const Property* property = find(name);
+    const bool isColor = property && std::holds_alternative<Spectrum>(property->value);
+    return isColor ? luminance(std::get<Spectrum>(property->value)) : number(name, fallback);
+  }
+  const SpectrumParameter parameter = spectrum(name, Spectrum(fallback));
+  return {luminance(parameter.value), parameter.texture};
 }
 
 Matrix4 Reader::transform(const std::string& name) {

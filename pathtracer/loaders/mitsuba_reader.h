@@ -20,7 +20,8 @@ struct Context {
   FileSearch search;
   MeshLibrary meshes;
   SceneDescription scene;
-  std::map<const Object*, int> materials;  ///< read already; kNone while being read
+  std::map<const Object*, int> materials;               ///< read already; kNone while being read
+  std::map<const Object*, SpectrumParameter> textures;  ///< read already; without texture while being read
   std::map<const Object*, int> groups;
 
   /// Mitsuba 0.x, whose defaults differ here and there.
@@ -52,6 +53,9 @@ class Reader {
   std::string string(const std::string& name, const std::string& fallback);
   Vec3 point(const std::string& name, const Vec3& fallback);
   Spectrum color(const std::string& name, const Spectrum& fallback);
+  /// Constants or textures.
+  SpectrumParameter spectrum(const std::string& name, const Spectrum& fallback);
+  FloatParameter numberOrTexture(const std::string& name, float fallback);
   Matrix4 transform(const std::string& name);
   /// One of the words, as its index; letter case is free.
   int choice(const std::string& name, const std::vector<std::string>& words, int fallback);
@@ -69,6 +73,8 @@ class Reader {
 
  private:
   const Property* find(const std::string& name);
+  /// The object that stands for a property, such as a texture; null if there is none.
+  const Object* childNamed(const std::string& name);
   template <class T>
   const T* findAs(const std::string& name, const char* wanted);
 

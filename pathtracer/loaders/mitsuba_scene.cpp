@@ -56,7 +56,7 @@ void checkScene(const Object& scene) {
 
 SceneDescription loadMitsubaScene(const std::filesystem::path& file, const LoadOptions& options) {
   const XmlScene xml = readXml(file, options.variables);
-  Context context{options, readVersion(xml.root), xml.search, {}, {}, {}, {}};
+  Context context{options, readVersion(xml.root), xml.search, {}, {}, {}, {}, {}};
   const Objects objects = readObjects(xml.root);
   const Object& scene = objects.front();
   checkScene(scene);

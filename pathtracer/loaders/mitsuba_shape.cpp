@@ -108,7 +108,7 @@ std::optional<SpectrumParameter> readShapeEmission(Context& context, Reader& rea
   if (emitters.empty()) return std::nullopt;
   if (emitters.size() > 1) failAt(emitters[1]->source, fmt::format("{} has more than one emitter", reader.title()));
   try {
-    return SpectrumParameter(readAreaEmitter(context, *emitters.front()));
+    return readAreaEmitter(context, *emitters.front());
   } catch (const UnsupportedError& error) {
     context.leaveOut(error, "left out");
     return std::nullopt;

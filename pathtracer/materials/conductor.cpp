@@ -13,12 +13,12 @@ class SmoothConductor final : public Material {
     return {Spectrum(0.0f), 0};
   }
 
-  BsdfSample sample(const SurfaceInteraction&, const Vec3& wo, float, const Vec2&) const noexcept override {
+  BsdfSample sample(const SurfaceInteraction& si, const Vec3& wo, float, const Vec2&) const noexcept override {
     if (wo.z <= 0) return {};
-    return {.wi = reflect(wo), .weight = m_metal.reflectance(wo.z), .pdf = 1, .isDelta = true};
+    return {.wi = reflect(wo), .weight = m_metal.reflectance(si, wo.z), .pdf = 1, .isDelta = true};
   }
 
-  Spectrum albedo(const SurfaceInteraction&) const noexcept override { return m_metal.reflectance(1); }
+  Spectrum albedo(const SurfaceInteraction& si) const noexcept override { return m_metal.reflectance(si, 1); }
 
  private:
   Metal m_metal;

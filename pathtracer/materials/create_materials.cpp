@@ -6,51 +6,89 @@ namespace pt {
 
 namespace {
 
-struct MakeMaterial {
-  const Parameters& parameters;
-  RoughTransmittanceCache& cache;
+/// Makes each material after those inside it.
+class MaterialBuilder {
+ public:
+  MaterialBuilder(const SceneDescription& description, const TextureSet& textures)
+      : m_description(description),
+        m_textures(textures),
+        m_materials(description.materials.size()),
+        m_isBegun(description.materials.size()) {}
 
-  using Result = std::unique_ptr<Material>;
-  Result operator()(const DiffuseMaterial& m) const { return makeDiffuse(m, parameters); }
-  Result operator()(const ConductorMaterial& m) const { return makeConductor(m, parameters); }
-  Result operator()(const DielectricMaterial& m) const { return makeDielectric(m, parameters); }
-  Result operator()(const ThinDielectricMaterial& m) const { return makeThinDielectric(m, parameters); }
-  Result operator()(const PlasticMaterial& m) const { return makePlastic(m, parameters, cache); }
-  /// Made later, when its sides exist.
-  Result operator()(const TwoSidedMaterial&) const { return nullptr; }
-};
-
-/// The one-sided material that a side of a two-sided one names. A two-sided material as a side shows its own front.
-int resolveSide(const SceneDescription& description, int side, const Parameters& parameters) {
-  for (std::size_t step = 0; step <= description.materials.size(); ++step) {
-    if (side < 0 || std::size_t(side) >= description.materials.size())
-      parameters.fail(fmt::format("a two-sided material names material {}, which does not exist", side));
-    const auto* nested = std::get_if<TwoSidedMaterial>(&description.materials[side].kind);
-    if (!nested) return side;
-    side = nested->front;
+  std::vector<std::unique_ptr<Material>> build() {
+    for (std::size_t i = 0; i < m_materials.size(); ++i)
+      if (!m_materials[i]) make(i);
+    return std::move(m_materials);
   }
-  parameters.fail("two-sided materials name each other in a circle");
-}
+
+ private:
+  using Result = std::unique_ptr<Material>;
+
+  void make(std::size_t index) {
+    const MaterialDescription& material = m_description.materials[index];
+    m_isBegun[index] = true;
+    const Parameters parameters(material.source, m_textures);
+    m_materials[index] = std::visit([&](const auto& kind) { return make(kind, parameters); }, material.kind);
+  }
+
+  Result make(const DiffuseMaterial& m, const Parameters& p) { return makeDiffuse(m, p); }
+  Result make(const RoughDiffuseMaterial& m, const Parameters& p) { return makeRoughDiffuse(m, p); }
+  Result make(const ConductorMaterial& m, const Parameters& p) { return makeConductor(m, p); }
+  Result make(const DielectricMaterial& m, const Parameters& p) { return makeDielectric(m, p); }
+  Result make(const ThinDielectricMaterial& m, const Parameters& p) { return makeThinDielectric(m, p); }
+  Result make(const PlasticMaterial& m, const Parameters& p) { return makePlastic(m, p, m_cache); }
+  Result make(const NullMaterial&, const Parameters&) { return makeNull(); }
+  Result make(const MaskMaterial& m, const Parameters& p) { return makeMask(nested(m.material, p), m, p); }
+  Result make(const BumpMaterial& m, const Parameters& p) { return makeBump(nested(m.material, p), m, p); }
+  Result make(const NormalMapMaterial& m, const Parameters& p) { return makeNormalMap(nested(m.material, p), m, p); }
+  Result make(const PrincipledMaterial& m, const Parameters& p) { return makePrincipled(m, p); }
+  Result make(const BlendMaterial& m, const Parameters& p) {
+    const Material& first = nested(m.first, p);
+    return makeBlend(first, nested(m.second, p), m, p);
+  }
+  Result make(const TwoSidedMaterial& m, const Parameters& p) {
+    const Material& front = nested(resolveSide(m.front, p), p);
+    return makeTwoSided(front, nested(resolveSide(m.back, p), p), p);
+  }
+
+  /// The material that another one contains.
+  const Material& nested(int index, const Parameters& user) {
+    const std::size_t i = checked(index, user);
+    if (!m_materials[i]) {
+      if (m_isBegun[i]) user.fail("materials contain each other in a circle");
+      make(i);
+    }
+    return *m_materials[i];
+  }
+
+  /// The one-sided material that a side of a two-sided one names. A two-sided material as a side shows its own front.
+  int resolveSide(int side, const Parameters& user) const {
+    for (std::size_t step = 0; step <= m_materials.size(); ++step) {
+      const auto* twoSided = std::get_if<TwoSidedMaterial>(&m_description.materials[checked(side, user)].kind);
+      if (!twoSided) return side;
+      side = twoSided->front;
+    }
+    user.fail("two-sided materials name each other in a circle");
+  }
+
+  std::size_t checked(int index, const Parameters& user) const {
+    if (index < 0 || std::size_t(index) >= m_materials.size())
+      user.fail(fmt::format("the material inside is number {}, which does not exist", index));
+    return std::size_t(index);
+  }
+
+  const SceneDescription& m_description;
+  const TextureSet& m_textures;
+  RoughTransmittanceCache m_cache;
+  std::vector<std::unique_ptr<Material>> m_materials;
+  std::vector<bool> m_isBegun;
+};
 
 }  // namespace
 
-std::vector<std::unique_ptr<Material>> createMaterials(const SceneDescription& description) {
-  std::vector<std::unique_ptr<Material>> materials;
-  materials.reserve(description.materials.size());
-  RoughTransmittanceCache cache;
-  for (const MaterialDescription& m : description.materials)
-    materials.push_back(std::visit(MakeMaterial{Parameters(m.source), cache}, m.kind));
-
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    const MaterialDescription& m = description.materials[i];
-    const auto* twoSided = std::get_if<TwoSidedMaterial>(&m.kind);
-    if (!twoSided) continue;
-    const Parameters parameters(m.source);
-    const int front = resolveSide(description, twoSided->front, parameters);
-    const int back = resolveSide(description, twoSided->back, parameters);
-    materials[i] = makeTwoSided(*materials[front], *materials[back], parameters);
-  }
-  return materials;
+std::vector<std::unique_ptr<Material>> createMaterials(const SceneDescription& description,
+                                                       const TextureSet& textures) {
+  return MaterialBuilder(description, textures).build();
 }
 
 }  // namespace pt

@@ -9,29 +9,28 @@ namespace {
 /// Lambert's law; black from behind.
 class Diffuse final : public Material {
  public:
-  explicit Diffuse(const Spectrum& reflectance)
-      : Material({.hasSmooth = true}), m_reflectance(reflectance), m_bsdf(reflectance * kInvPi) {}
+  explicit Diffuse(const TexturedSpectrum& reflectance) : Material({.hasSmooth = true}), m_reflectance(reflectance) {}
 
-  BsdfEvaluation evaluate(const SurfaceInteraction&, const Vec3& wo, const Vec3& wi) const noexcept override {
+  BsdfEvaluation evaluate(const SurfaceInteraction& si, const Vec3& wo, const Vec3& wi) const noexcept override {
     if (wo.z <= 0 || wi.z <= 0) return {Spectrum(0.0f), 0};
-    return {m_bsdf * wi.z, cosineHemispherePdf(wi)};
+    const float pdf = cosineHemispherePdf(wi);
+    return {m_reflectance(si) * pdf, pdf};
   }
 
-  BsdfSample sample(const SurfaceInteraction&, const Vec3& wo, float, const Vec2& u) const noexcept override {
+  BsdfSample sample(const SurfaceInteraction& si, const Vec3& wo, float, const Vec2& u) const noexcept override {
     if (wo.z <= 0) return {};
     const Vec3 wi = squareToCosineHemisphere(u);
-    return {.wi = wi, .weight = m_reflectance, .pdf = cosineHemispherePdf(wi)};
+    return {.wi = wi, .weight = m_reflectance(si), .pdf = cosineHemispherePdf(wi)};
   }
 
-  void describeLobes(const SurfaceInteraction&, const Vec3& wo, guiding::LobeSet& out) const noexcept override {
-    if (wo.z > 0) out.add(cosineLobe(average(m_reflectance), 1));
+  void describeLobes(const SurfaceInteraction& si, const Vec3& wo, guiding::LobeSet& out) const noexcept override {
+    if (wo.z > 0) out.add(cosineLobe(average(m_reflectance(si)), 1));
   }
 
-  Spectrum albedo(const SurfaceInteraction&) const noexcept override { return m_reflectance; }
+  Spectrum albedo(const SurfaceInteraction& si) const noexcept override { return m_reflectance(si); }
 
  private:
-  Spectrum m_reflectance;
-  Spectrum m_bsdf;
+  TexturedSpectrum m_reflectance;
 };
 
 }  // namespace

@@ -12,6 +12,8 @@
 
 namespace pt {
 
+class TextureSet;
+
 /// Value and density for a pair of directions; delta lobes take no part.
 using BsdfEvaluation = guiding::BsdfEvaluation<Spectrum>;
 
@@ -33,6 +35,7 @@ class Material {
     bool hasSmooth = false;
     bool hasDelta = false;
     bool transmits = false;
+    bool needsTangents = false;  ///< reads si.dpdu and dpdv, or tells frame.s from others
     float eta = 1;  ///< index of refraction behind the surface over the one before it (the side of the normal); 1 where
                     ///< no ray bends
   };
@@ -74,7 +77,8 @@ class Material {
   Spectrum m_absorption{0.0f};
 };
 
-/// One Material per description, in order. Throws InputError (with the description's source) for impossible parameters.
-std::vector<std::unique_ptr<Material>> createMaterials(const SceneDescription& description);
+/// One Material per description, in order; the textures outlive them. Throws InputError (with the description's source)
+/// for impossible parameters.
+std::vector<std::unique_ptr<Material>> createMaterials(const SceneDescription& description, const TextureSet& textures);
 
 }  // namespace pt

@@ -23,8 +23,9 @@ Vec3 normalOfSlopes(float x, float y) noexcept {
 
 float Microfacets::density(const Vec3& m) const noexcept {
   if (m.z <= 0) return 0;
-  const float alpha2 = m_alpha * m_alpha, cos2 = m.z * m.z;
-  const float scaledSin2 = (m.x * m.x + m.y * m.y) / alpha2;
+  const float alpha2 = m_alphaU * m_alphaV, cos2 = m.z * m.z;
+  const float x = m.x / m_alphaU, y = m.y / m_alphaV;
+  const float scaledSin2 = x * x + y * y;
   if (m_distribution == MicrofacetDistribution::Ggx) {
     const float root = cos2 + scaledSin2;
     return 1 / (kPi * alpha2 * root * root);
@@ -34,7 +35,8 @@ float Microfacets::density(const Vec3& m) const noexcept {
 }
 
 float Microfacets::masking(const Vec3& v) const noexcept {
-  const float scaledSin2 = m_alpha * m_alpha * (v.x * v.x + v.y * v.y);
+  const float x = m_alphaU * v.x, y = m_alphaV * v.y;
+  const float scaledSin2 = x * x + y * y;
   const float z = std::abs(v.z);
   if (m_distribution == MicrofacetDistribution::Ggx) return 2 * z / (z + std::sqrt(z * z + scaledSin2));
   if (z * z >= 16 * scaledSin2) return 1;  // 1 - G1 below 1e-8
@@ -47,17 +49,17 @@ float Microfacets::masking(const Vec3& v) const noexcept {
 Vec3 Microfacets::sampleNormal(const Vec3& wo, const Vec2& u) const noexcept {
   const bool ggx = m_distribution == MicrofacetDistribution::Ggx;
   if (!m_sampleVisible) {
-    const float r = m_alpha * std::sqrt(ggx ? u.x / (1 - u.x) : -std::log(1 - u.x));
+    const float r = std::sqrt(ggx ? u.x / (1 - u.x) : -std::log(1 - u.x));
     const float phi = 2 * kPi * u.y;
-    return normalOfSlopes(r * std::cos(phi), r * std::sin(phi));
+    return normalOfSlopes(m_alphaU * r * std::cos(phi), m_alphaV * r * std::sin(phi));
   }
-  const Vec3 stretched = Vec3(m_alpha * wo.x, m_alpha * wo.y, wo.z).normalized();
+  const Vec3 stretched = Vec3(m_alphaU * wo.x, m_alphaV * wo.y, wo.z).normalized();
   if (ggx) {
     const Vec3 h = sampleVisibleHemisphere(stretched, u);
-    return Vec3(m_alpha * h.x, m_alpha * h.y, std::max(1e-6f * m_alpha, h.z)).normalized();
+    return Vec3(m_alphaU * h.x, m_alphaV * h.y, std::max(1e-6f * std::max(m_alphaU, m_alphaV), h.z)).normalized();
   }
   const Vec2 slope = sampleVisibleBeckmannSlopes(stretched, u);
-  return normalOfSlopes(m_alpha * slope.x, m_alpha * slope.y);
+  return normalOfSlopes(m_alphaU * slope.x, m_alphaV * slope.y);
 }
 
 }  // namespace pt

@@ -89,4 +89,14 @@ std::shared_ptr<const RoughTransmittance> RoughTransmittanceCache::get(Microface
   return table;
 }
 
+TexturedTransmittance RoughTransmittanceCache::get(const TexturedFacets& facets, float eta, RoughBoundary boundary) {
+  const float least = std::max(kSmoothAlpha, facets.alpha().least()), most = std::max(least, facets.alpha().most());
+  if (least == most) return TexturedTransmittance(get(facets.distribution(), least, eta, boundary));
+  constexpr int kTables = 12;  // transmittance bends little over roughness
+  std::vector<std::shared_ptr<const RoughTransmittance>> tables;
+  for (int i = 0; i < kTables; ++i)
+    tables.push_back(get(facets.distribution(), least + (most - least) * float(i) / (kTables - 1), eta, boundary));
+  return TexturedTransmittance(std::move(tables), least, most);
+}
+
 }  // namespace pt

@@ -2,6 +2,7 @@
 
 #include "core/fresnel.h"
 #include "materials/material.h"
+#include "textures/textured.h"
 
 /// Small pieces that BSDFs share: mirror-like directions, the choice between lobes, the weight of a drawn direction.
 namespace pt {
@@ -36,9 +37,12 @@ inline BsdfSample sampleOf(const BsdfEvaluation& evaluation, const Vec3& wi) noe
 
 /// Index of refraction eta - ik relative to the exterior, and a factor that is 1 in nature.
 struct Metal {
-  Spectrum eta, k, tint;
+  Spectrum eta, k;
+  TexturedSpectrum tint;
 
-  Spectrum reflectance(float cosTheta) const noexcept { return tint * fresnelConductor(cosTheta, eta, k); }
+  Spectrum reflectance(const SurfaceInteraction& si, float cosTheta) const noexcept {
+    return tint(si) * fresnelConductor(cosTheta, eta, k);
+  }
 };
 
 /// Factors on what a dielectric boundary reflects and lets through; 1 in nature.
@@ -50,6 +54,12 @@ struct BoundaryTints {
     return lobeProbability(fresnel * average(reflectance), (1 - fresnel) * average(transmittance));
   }
   Spectrum mix(float fresnel) const noexcept { return reflectance * fresnel + transmittance * (1 - fresnel); }
+};
+
+struct TexturedTints {
+  TexturedSpectrum reflectance, transmittance;
+
+  BoundaryTints operator()(const SurfaceInteraction& si) const noexcept { return {reflectance(si), transmittance(si)}; }
 };
 
 }  // namespace pt

@@ -9,28 +9,27 @@ namespace {
 /// A pane so thin that refraction into and out of it cancel; light that bounces inside is counted.
 class ThinDielectric final : public Material {
  public:
-  ThinDielectric(float eta, const BoundaryTints& tints)
+  ThinDielectric(float eta, const TexturedTints& tints)
       : Material({.hasDelta = true, .transmits = true}), m_eta(eta), m_tints(tints) {}
 
   BsdfEvaluation evaluate(const SurfaceInteraction&, const Vec3&, const Vec3&) const noexcept override {
     return {Spectrum(0.0f), 0};
   }
 
-  BsdfSample sample(const SurfaceInteraction&, const Vec3& wo, float uLobe, const Vec2&) const noexcept override {
+  BsdfSample sample(const SurfaceInteraction& si, const Vec3& wo, float uLobe, const Vec2&) const noexcept override {
     const float reflectance = paneReflectance(std::abs(wo.z));
-    const float pReflect = m_tints.reflectProbability(reflectance);
+    const BoundaryTints tints = m_tints(si);
+    const float pReflect = tints.reflectProbability(reflectance);
     if (uLobe < pReflect)
-      return {.wi = reflect(wo),
-              .weight = m_tints.reflectance * (reflectance / pReflect),
-              .pdf = pReflect,
-              .isDelta = true};
+      return {
+          .wi = reflect(wo), .weight = tints.reflectance * (reflectance / pReflect), .pdf = pReflect, .isDelta = true};
     return {.wi = -wo,
-            .weight = m_tints.transmittance * ((1 - reflectance) / (1 - pReflect)),
+            .weight = tints.transmittance * ((1 - reflectance) / (1 - pReflect)),
             .pdf = 1 - pReflect,
             .isDelta = true};
   }
 
-  Spectrum albedo(const SurfaceInteraction&) const noexcept override { return m_tints.mix(paneReflectance(1)); }
+  Spectrum albedo(const SurfaceInteraction& si) const noexcept override { return m_tints(si).mix(paneReflectance(1)); }
 
  private:
   /// Of both faces: R + T R T + T R^3 T + ... = 2R / (1 + R).
@@ -40,7 +39,7 @@ class ThinDielectric final : public Material {
   }
 
   float m_eta;
-  BoundaryTints m_tints;
+  TexturedTints m_tints;
 };
 
 }  // namespace

@@ -12,7 +12,8 @@ class TwoSided final : public Material {
  public:
   TwoSided(const Material& front, const Material& back)
       : Material({.hasSmooth = front.traits().hasSmooth || back.traits().hasSmooth,
-                  .hasDelta = front.traits().hasDelta || back.traits().hasDelta}),
+                  .hasDelta = front.traits().hasDelta || back.traits().hasDelta,
+                  .needsTangents = front.traits().needsTangents || back.traits().needsTangents}),
         m_front(front),
         m_back(back) {}
 

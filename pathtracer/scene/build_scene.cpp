@@ -38,9 +38,6 @@ void validateShape(const SceneDescription& description, const ShapeDescription& 
   }
   if (!shape.emission) return;
   if (inGroup) throw InputError(where + ": a shape that is instanced cannot emit light; place it in the scene itself");
-  if (shape.emission->texture != kNone)
-    throw InputError(where + ": textured emission is not supported; give one radiance");
-  if (!isEmission(shape.emission->value)) throw InputError(where + ": radiance must be finite and not negative");
 }
 
 /// Assembles SceneData step by step.
@@ -53,7 +50,8 @@ class SceneBuilder {
     for (const auto& group : m_description.groups)
       for (const auto& shape : group.shapes) validateShape(m_description, shape, true);
     m_data.origin = chooseOrigin(m_description);
-    m_data.materials = createMaterials(m_description);
+    m_data.textures = TextureSet(m_description);
+    m_data.materials = createMaterials(m_description, m_data.textures);
     fillMedia();
     addShapes();
     addInstances();
@@ -135,15 +133,26 @@ class SceneBuilder {
       return;
     if (shape.material != kNone) surface.material = m_data.materials[std::size_t(shape.material)].get();
     surface.needsUvs = needsUvs(m_description, shape);
+    surface.needsTangents = surface.material && surface.material->traits().needsTangents;
     surface.id = m_nextId++;
-    if (shape.emission) addAreaLight(shape.emission->value, surface);
+    if (shape.emission) addAreaLight(radianceOf(shape), surface);
     m_data.degenerateTriangles += baked.degenerateTriangles;
     bounds.extendBy(baked.bounds);
     surfaces.push_back(surface);
   }
 
-  void addAreaLight(const Spectrum& radiance, Surface& surface) {
-    if (isBlack(radiance)) {
+  TexturedSpectrum radianceOf(const ShapeDescription& shape) const {
+    const Texture* texture = m_data.textures.find(shape.emission->texture);
+    if (!texture && shape.emission->texture != kNone)
+      throw InputError(fmt::format("{}: there is no texture {}", placeOf(shape), shape.emission->texture));
+    const TexturedSpectrum radiance(shape.emission->value, texture);
+    if (!isEmission(radiance.least()) || !isEmission(radiance.most()))
+      throw InputError(placeOf(shape) + ": radiance must be finite and not negative");
+    return radiance;
+  }
+
+  void addAreaLight(const TexturedSpectrum& radiance, Surface& surface) {
+    if (isBlack(radiance.most())) {
       ++m_data.blackEmitters;
       return;
     }

@@ -77,6 +77,14 @@ void listLights(const SceneData& data, Lists& lists) {
   if (data.blackEmitters > 0) lists.leaveOut(fmt::format("{} lights", data.blackEmitters), "they are black");
 }
 
+void listTextures(const SceneData& data, const SceneFeatures& features, Lists& lists) {
+  if (!features.hasTextures) return lists.leaveOut("textures and texture coordinates", "no texture is used");
+  lists.add("textures", data.textures.size(), "", "");
+  lists.add("shapes with texture coordinates", countSurfaces(data, [](auto& s) { return s.needsUvs; }), "", "");
+  lists.add("pictures read through a cache of tiles", data.textures.cachedPictures(), "texture cache",
+            "all pictures are held in memory");
+}
+
 void listMaterials(const SceneData& data, const SceneFeatures& features, Lists& lists) {
   const auto used = usedMaterials(data);
   const auto count = [&](auto trait) { return std::size_t(std::count_if(used.begin(), used.end(), trait)); };
@@ -88,10 +96,7 @@ void listMaterials(const SceneData& data, const SceneFeatures& features, Lists& 
             "nothing transmits light");
   lists.add("absorbing media", count([](auto* m) { return !isBlack(m->absorption()); }), "absorption inside of media",
             "nothing absorbs");
-  if (features.hasTextures)
-    lists.add("textured shapes", countSurfaces(data, [](auto& s) { return s.needsUvs; }), "", "");
-  else
-    lists.leaveOut("textures and texture coordinates", "no texture is used");
+  listTextures(data, features, lists);
   if (used.size() < data.materials.size())
     lists.leaveOut(fmt::format("{} materials", data.materials.size() - used.size()), "no shape uses them directly");
 }
@@ -100,7 +105,7 @@ void listMaterials(const SceneData& data, const SceneFeatures& features, Lists& 
 
 SceneCounts countScene(const SceneData& data) {
   SceneCounts counts;
-  counts.memoryBytes = data.accel->memoryBytes() + data.environmentTableBytes;
+  counts.memoryBytes = data.accel->memoryBytes() + data.environmentTableBytes + data.textures.memoryBytes();
   for (const Mesh& mesh : data.meshes) {
     counts.triangles += mesh.triangles.size();
     counts.memoryBytes += mesh.memoryBytes();

@@ -74,6 +74,17 @@ void bakeTriangles(const TriangleMesh& source, bool reverse, const std::string& 
 
 }  // namespace
 
+float Mesh::uvPerLength() const noexcept {
+  double uvArea = 0, area = 0;
+  for (const Triangle& t : triangles) {
+    const Imath::V3d p(position(t[0]));
+    area += (Imath::V3d(position(t[1])) - p).cross(Imath::V3d(position(t[2])) - p).length();
+    const Vec2 uv0 = uvAt(t, {0, 0}), uv1 = uvAt(t, {1, 0}) - uv0, uv2 = uvAt(t, {0, 1}) - uv0;
+    uvArea += std::abs(double(uv1.x) * uv2.y - double(uv1.y) * uv2.x);
+  }
+  return float(std::sqrt(uvArea / area));
+}
+
 std::size_t Mesh::memoryBytes() const noexcept {
   return vertices.capacity() * sizeof(float) + triangles.capacity() * sizeof(Triangle) + uvs.capacity() * sizeof(Vec2);
 }

@@ -25,6 +25,13 @@ struct Mesh {
   bool hasNormals() const noexcept { return stride == 6; }
   const Vec3& position(std::uint32_t vertex) const noexcept { return vector(vertex * std::size_t(stride)); }
   const Vec3& normal(std::uint32_t vertex) const noexcept { return vector(vertex * std::size_t(stride) + 3); }
+  /// Texture coordinates at barycentric coordinates of the second and third vertex; those themselves without any.
+  Vec2 uvAt(const Triangle& t, const Vec2& barycentric) const noexcept {
+    if (uvs.empty()) return barycentric;
+    return uvs[t[0]] * (1 - barycentric.x - barycentric.y) + uvs[t[1]] * barycentric.x + uvs[t[2]] * barycentric.y;
+  }
+  /// Square root of the area in texture coordinates over that in space.
+  float uvPerLength() const noexcept;
   std::size_t memoryBytes() const noexcept;
 
  private:

@@ -92,4 +92,23 @@ bool Cylinder::intersect(const RayD& ray, double tMin, double tMax, double& t) c
   return isOn(t);
 }
 
+Vec2 Sphere::uv(const Imath::V3d& n) const noexcept {
+  double phi = std::atan2(n.dot(axes[1]), n.dot(axes[0]));
+  if (phi < 0) phi += 2 * double(kPi);
+  const double z = std::clamp(n.dot(axes[2]), -1.0, 1.0);
+  return {float(phi) * 0.5f * kInvPi, float(std::acos(z)) * kInvPi};
+}
+
+Vec2 Disk::uv(const Imath::V2d& xy) const noexcept {
+  double phi = std::atan2(xy.y, xy.x);
+  if (phi < 0) phi += 2 * double(kPi);
+  return {float(xy.length()), float(phi) * 0.5f * kInvPi};
+}
+
+Vec2 Cylinder::uv(const Imath::V3d& p, const Imath::V3d& n) const noexcept {
+  double phi = std::atan2(n.dot(axes[1]), n.dot(axes[0]));
+  if (phi < 0) phi += 2 * double(kPi);
+  return {float(phi) * 0.5f * kInvPi, float(axes[2].dot(p - base) / length)};
+}
+
 }  // namespace pt

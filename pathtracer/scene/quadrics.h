@@ -21,6 +21,8 @@ struct Sphere {
   bool flipNormals = false;
 
   Box3 bounds() const;
+  /// Longitude over 2 pi and colatitude over pi of the unit direction n from the centre.
+  Vec2 uv(const Imath::V3d& n) const noexcept;
   /// First crossing with tMin < t < tMax.
   bool intersect(const RayD& ray, double tMin, double tMax, double& t) const noexcept;
 };
@@ -35,6 +37,8 @@ struct Disk {
   double area() const { return 3.14159265358979323846 * axes[0].cross(axes[1]).length(); }
   /// Coordinates (x, y) of a point of the plane.
   Imath::V2d coordinates(const Imath::V3d& p) const noexcept;
+  /// Radius and angle over 2 pi at coordinates (x, y).
+  Vec2 uv(const Imath::V2d& xy) const noexcept;
   bool intersect(const RayD& ray, double tMin, double tMax, double& t) const noexcept;
 };
 
@@ -49,6 +53,8 @@ struct Cylinder {
   double area() const { return 2 * 3.14159265358979323846 * radius * length; }
   /// Unit, away from the axis.
   Imath::V3d outward(const Imath::V3d& p) const noexcept;
+  /// Longitude over 2 pi and share of the length, at point p with unit direction n from the axis.
+  Vec2 uv(const Imath::V3d& p, const Imath::V3d& n) const noexcept;
   /// First crossing with tMin < t < tMax.
   bool intersect(const RayD& ray, double tMin, double tMax, double& t) const noexcept;
 };

@@ -29,6 +29,16 @@ SceneData build(const SceneDescription& description) {
   return buildSceneData(description);
 }
 
+/// Rays through the middle of the picture tell how far its pixels lie apart.
+void setPixelWidths(SceneData& data, const Camera& camera, const FilmDescription& film) {
+  const Vec2 middle(float(film.width) / 2, float(film.height) / 2), lens(0.5f, 0.5f);
+  const Vec3 direction = camera.generateRay(middle, lens).direction;
+  const float width = (camera.generateRay(middle + Vec2(1, 0), lens).direction - direction).length();
+  for (Surface& surface : data.surfaces) surface.pixelUv = width * uvPerLength(surface);
+  for (auto& group : data.groups)
+    for (Surface& surface : group) surface.pixelUv = width * uvPerLength(surface);
+}
+
 /// u with 24 more bits below a float's: choices of probability far below 2^-24 keep it.
 double refine(float u, const Vec2& independent) noexcept {
   const std::uint64_t bits =
@@ -42,7 +52,9 @@ Scene::Scene(const SceneDescription& description)
     : m_data(std::make_unique<SceneData>(build(description))),
       m_camera(makeCameraAround(description, m_data->origin)),
       m_features(listFeatures(*m_data)),
-      m_counts(countScene(*m_data)) {}
+      m_counts(countScene(*m_data)) {
+  if (m_features.hasTextures) setPixelWidths(*m_data, *m_camera, description.film);
+}
 
 Scene::~Scene() = default;
 

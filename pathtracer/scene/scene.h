@@ -28,7 +28,7 @@ struct SceneFeatures {
 
 struct SceneCounts {
   std::size_t triangles = 0, primitives = 0, instances = 0, lights = 0, materials = 0;
-  std::size_t memoryBytes = 0;  ///< geometry and accelerator
+  std::size_t memoryBytes = 0;  ///< geometry, accelerator and textures
 };
 
 /// A light chosen for next-event estimation and the point sampled on it.
@@ -78,7 +78,7 @@ class Scene {
   const SceneCounts& counts() const noexcept { return m_counts; }
 
  private:
-  std::unique_ptr<const SceneData> m_data;
+  std::unique_ptr<SceneData> m_data;  ///< not changed once the scene is built
   std::unique_ptr<Camera> m_camera;
   SceneFeatures m_features;
   SceneCounts m_counts;

@@ -8,6 +8,7 @@
 #include "scene/embree_accel.h"
 #include "scene/scene.h"
 #include "scene/surface.h"
+#include "textures/texture_set.h"
 
 namespace pt {
 
@@ -15,6 +16,7 @@ namespace pt {
 struct SceneData {
   Imath::V3d origin{0, 0, 0};  ///< of the space of all below, in the space of the description
 
+  TextureSet textures;
   std::vector<std::unique_ptr<Material>> materials;
   std::deque<Mesh> meshes;
   std::deque<Sphere> spheres;

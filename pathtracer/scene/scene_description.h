@@ -26,13 +26,13 @@ using SourceLocation = std::string;
 
 // ---------------------------------------------------------------- textures and parameters
 
-/// Index into SceneDescription::textures, or a constant.
+/// A constant, or with `texture` (index into SceneDescription::textures) that texture times `value`.
 struct SpectrumParameter {
   Spectrum value{0.5f};
   int texture = kNone;
 
   SpectrumParameter() = default;
-  SpectrumParameter(const Spectrum& v) : value(v) {}
+  SpectrumParameter(const Spectrum& v, int t = kNone) : value(v), texture(t) {}
   SpectrumParameter(float v) : value(v) {}
 };
 struct FloatParameter {
@@ -40,19 +40,33 @@ struct FloatParameter {
   int texture = kNone;
 
   FloatParameter() = default;
-  FloatParameter(float v) : value(v) {}
+  FloatParameter(float v, int t = kNone) : value(v), texture(t) {}
 };
+
+/// How the numbers of a picture of integers encode light; pictures of floats are linear whatever is said.
+enum class TextureEncoding { Srgb, Linear };
+/// What of a picture is read. Color: all three channels, or luminance where one number is asked for.
+enum class TextureChannel { Color, Red, Green, Blue, Alpha };
+/// Bilinear reads the finest level: as sharp as the picture's samples can show, they do the averaging. Trilinear reads
+/// a mip map at the width of a pixel seen by the camera.
+enum class TextureFilter { Nearest, Bilinear, Trilinear };
+/// What lies outside of [0, 1].
+enum class TextureWrap { Repeat, Mirror, Clamp, Black };
 
 struct BitmapTexture {
   std::filesystem::path file;
-  bool linear = false;  ///< values are linear already (roughness, opacity, HDR), else sRGB
+  TextureEncoding encoding = TextureEncoding::Srgb;
+  TextureChannel channel = TextureChannel::Color;
+  TextureFilter filter = TextureFilter::Bilinear;
+  TextureWrap wrapU = TextureWrap::Repeat, wrapV = TextureWrap::Repeat;
 };
+/// Squares of half a unit; color0 where both coordinates lie in the same half of theirs.
 struct CheckerboardTexture {
   Spectrum color0{0.4f}, color1{0.2f};
 };
 struct TextureDescription {
   std::variant<BitmapTexture, CheckerboardTexture> kind;
-  Vec2 uvScale{1, 1}, uvOffset{0, 0};
+  Matrix3 uvTransform;  ///< row vectors: what is read at (u, v, 1) * uvTransform; affine
   SourceLocation source;
 };
 
@@ -64,10 +78,17 @@ struct Roughness {
   FloatParameter alpha{0.1f};  ///< root-mean-square slope of the microfacets; > 0
   MicrofacetDistribution distribution = MicrofacetDistribution::Beckmann;
   bool sampleVisible = true;
+  std::optional<FloatParameter> alphaV = {};  ///< along v where it differs: `alpha` is then that along u
 };
 
 struct DiffuseMaterial {
   SpectrumParameter reflectance{0.5f};
+};
+/// Oren & Nayar's model of matt facets.
+struct RoughDiffuseMaterial {
+  SpectrumParameter reflectance{0.5f};
+  FloatParameter alpha{0.2f};  ///< root-mean-square slope, as of microfacets; the model's sigma is alpha / sqrt(2)
+  bool fastApproximation = false;
 };
 /// Smooth without, rough with `roughness`. A perfect mirror has eta 0, k 1.
 struct ConductorMaterial {
@@ -100,11 +121,53 @@ struct PlasticMaterial {
 struct TwoSidedMaterial {
   int front = kNone, back = kNone;
 };
+/// Lets everything pass straight on.
+struct NullMaterial {};
+/// A share of the light, by area, meets the material and the rest passes straight on.
+struct MaskMaterial {
+  int material = kNone;
+  FloatParameter opacity{0.5f};
+};
+
+/// The first material's share is 1 - weight.
+struct BlendMaterial {
+  int first = kNone, second = kNone;
+  FloatParameter weight{0.5f};
+};
+/// Turns the shading normal as if the surface were displaced along it by `scale` times the texture.
+struct BumpMaterial {
+  int material = kNone;
+  int texture = kNone;
+  float scale = 1;
+};
+/// Shading normals read from a texture: 2 c - 1 along tangent, bitangent and normal.
+struct NormalMapMaterial {
+  int material = kNone;
+  int texture = kNone;
+  float scale = 1;             ///< of the first two
+  bool mirrorsWithUv = false;  ///< the bitangent follows mirrored texture coordinates (glTF), else it is n x tangent
+};
+/// Metal or plastic or glass or something between, by few numbers in [0, 1], as glTF 2.0's metallic-roughness material
+/// with its extensions for transmission, sheen, clearcoat, specular, index of refraction and anisotropy.
+struct PrincipledMaterial {
+  SpectrumParameter baseColor{0.5f};
+  FloatParameter metallic{0.0f};
+  FloatParameter roughness{0.5f};     ///< square root of the microfacets' alpha
+  float anisotropy = 0;               ///< highlights stretch along u; alpha along u and v are in ratio 1 / (1 - .9 a)
+  float ior = 1.5f;                   ///< of the inside over the outside
+  SpectrumParameter specular{1.0f};   ///< factor on the reflection of what is not metal
+  FloatParameter transmission{0.0f};  ///< share of what is not metal that lets light through instead of a diffuse base
+  bool thin = false;                  ///< light passes unbent: the surface is both sides of a sheet
+  SpectrumParameter sheen{0.0f};      ///< colour of fibres seen at grazing angles
+  FloatParameter clearcoat{0.0f};
+  FloatParameter clearcoatRoughness{0.0f};
+};
 
 struct MaterialDescription {
   std::string name;
-  std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial, PlasticMaterial,
-               TwoSidedMaterial>
+  std::variant<DiffuseMaterial, RoughDiffuseMaterial, ConductorMaterial, DielectricMaterial, ThinDielectricMaterial,
+               PlasticMaterial, TwoSidedMaterial, NullMaterial, MaskMaterial, BlendMaterial, BumpMaterial,
+               NormalMapMaterial, PrincipledMaterial>
       kind;
   SourceLocation source;
   /// Of the medium behind a surface that lets light through, per unit of length and channel: exp(-absorption * way) of
@@ -247,6 +310,7 @@ struct SceneDescription {
   int spp = 64;
   IntegratorDescription integrator;
   std::vector<TextureDescription> textures;
+  std::size_t textureMemoryBytes = std::size_t(1) << 30;  ///< what does not fit is read through a cache of tiles
   std::vector<MaterialDescription> materials;
   std::vector<ShapeDescription> shapes;
   std::vector<GroupDescription> groups;

@@ -33,30 +33,13 @@ LocalHit triangleHit(const Mesh& mesh, const AccelHit& hit) {
   // In double, so that the point is off the triangle's plane by no more than its own rounding to float.
   local.p = Imath::V3d(v0) + e1 * double(hit.u) + e2 * double(hit.v);
   local.ng = local.ns = unit(e1.cross(e2));
-  local.uv = {hit.u, hit.v};
+  local.uv = mesh.uvAt(mesh.triangles[hit.primitive], {hit.u, hit.v});
   const float w = 1 - hit.u - hit.v;
   if (mesh.hasNormals()) {
     const Vec3 ns = mesh.normal(a) * w + mesh.normal(b) * hit.u + mesh.normal(c) * hit.v;
     if (isUsable(ns)) local.ns = ns;
   }
-  if (!mesh.uvs.empty()) local.uv = mesh.uvs[a] * w + mesh.uvs[b] * hit.u + mesh.uvs[c] * hit.v;
   return local;
-}
-
-/// Longitude and colatitude over 2 pi and pi.
-Vec2 sphereUv(const Sphere& sphere, const Imath::V3d& n) {
-  double phi = std::atan2(n.dot(sphere.axes[1]), n.dot(sphere.axes[0]));
-  if (phi < 0) phi += 2 * double(kPi);
-  const double z = std::clamp(n.dot(sphere.axes[2]), -1.0, 1.0);
-  return {float(phi) * 0.5f * kInvPi, float(std::acos(z)) * kInvPi};
-}
-
-/// Radius and angle over 2 pi.
-Vec2 diskUv(const Disk& disk, const Imath::V3d& p) {
-  const Imath::V2d xy = disk.coordinates(p);
-  double phi = std::atan2(xy.y, xy.x);
-  if (phi < 0) phi += 2 * double(kPi);
-  return {float(xy.length()), float(phi) * 0.5f * kInvPi};
 }
 
 LocalHit sphereHit(const Sphere& sphere, const RayD& ray, float t, bool needsUvs) {
@@ -64,7 +47,7 @@ LocalHit sphereHit(const Sphere& sphere, const RayD& ray, float t, bool needsUvs
   LocalHit local;
   local.p = sphere.center + n * sphere.radius;
   local.ng = local.ns = sphere.flipNormals ? -Vec3(n) : Vec3(n);
-  if (needsUvs) local.uv = sphereUv(sphere, n);
+  if (needsUvs) local.uv = sphere.uv(n);
   return local;
 }
 
@@ -73,15 +56,8 @@ LocalHit diskHit(const Disk& disk, const RayD& ray, float t, bool needsUvs) {
   const Imath::V3d p = ray.origin + ray.direction * double(t);
   local.p = p - disk.normal * disk.normal.dot(p - disk.center);
   local.ng = local.ns = Vec3(disk.normal);
-  if (needsUvs) local.uv = diskUv(disk, local.p);
+  if (needsUvs) local.uv = disk.uv(disk.coordinates(local.p));
   return local;
-}
-
-/// Longitude over 2 pi and share of the length.
-Vec2 cylinderUv(const Cylinder& cylinder, const Imath::V3d& p, const Imath::V3d& n) {
-  double phi = std::atan2(n.dot(cylinder.axes[1]), n.dot(cylinder.axes[0]));
-  if (phi < 0) phi += 2 * double(kPi);
-  return {float(phi) * 0.5f * kInvPi, float(cylinder.axes[2].dot(p - cylinder.base) / cylinder.length)};
 }
 
 LocalHit cylinderHit(const Cylinder& cylinder, const RayD& ray, float t, bool needsUvs) {
@@ -90,7 +66,7 @@ LocalHit cylinderHit(const Cylinder& cylinder, const RayD& ray, float t, bool ne
   LocalHit local;
   local.p = cylinder.base + cylinder.axes[2] * cylinder.axes[2].dot(met - cylinder.base) + n * cylinder.radius;
   local.ng = local.ns = cylinder.flipNormals ? -Vec3(n) : Vec3(n);
-  if (needsUvs) local.uv = cylinderUv(cylinder, local.p, n);
+  if (needsUvs) local.uv = cylinder.uv(local.p, n);
   return local;
 }
 
@@ -106,11 +82,82 @@ LocalHit localHit(const Surface& surface, const Instance* instance, const Ray& r
   return cylinderHit(*surface.cylinder, localRay(instance, ray), hit.t, surface.needsUvs);
 }
 
+/// Derivatives of the point with respect to texture coordinates, in the space of the shape; 0 where they are undefined.
+struct Tangents {
+  Imath::V3d dpdu{0, 0, 0}, dpdv{0, 0, 0};
+};
+
+Tangents triangleTangents(const Mesh& mesh, const Mesh::Triangle& t) {
+  const Imath::V3d p(mesh.position(t[0]));
+  const Imath::V3d e1 = Imath::V3d(mesh.position(t[1])) - p, e2 = Imath::V3d(mesh.position(t[2])) - p;
+  const Imath::V2d uv(mesh.uvAt(t, {0, 0}));
+  const Imath::V2d d1 = Imath::V2d(mesh.uvAt(t, {1, 0})) - uv, d2 = Imath::V2d(mesh.uvAt(t, {0, 1})) - uv;
+  const double determinant = d1.x * d2.y - d1.y * d2.x;
+  if (determinant == 0) return {};
+  return {(e1 * d2.y - e2 * d1.y) / determinant, (e2 * d1.x - e1 * d2.x) / determinant};
+}
+
+Tangents sphereTangents(const Sphere& sphere, const Imath::V3d& p) {
+  const Imath::V3d d = p - sphere.center;
+  const double x = d.dot(sphere.axes[0]), y = d.dot(sphere.axes[1]), z = d.dot(sphere.axes[2]);
+  const double r = std::hypot(x, y);
+  if (r == 0) return {};  // the poles
+  const Imath::V3d outwards = sphere.axes[0] * (x / r) + sphere.axes[1] * (y / r);
+  return {(sphere.axes[1] * x - sphere.axes[0] * y) * (2 * double(kPi)),
+          (outwards * z - sphere.axes[2] * r) * double(kPi)};
+}
+
+Tangents diskTangents(const Disk& disk, const Imath::V3d& p) {
+  const Imath::V2d xy = disk.coordinates(p);
+  const double r = xy.length();
+  if (r == 0) return {};
+  return {(disk.axes[0] * xy.x + disk.axes[1] * xy.y) / r,
+          (disk.axes[1] * xy.x - disk.axes[0] * xy.y) * (2 * double(kPi))};
+}
+
+Tangents cylinderTangents(const Cylinder& cylinder, const Imath::V3d& p) {
+  const Imath::V3d n = cylinder.outward(p);
+  const Imath::V3d around = cylinder.axes[1] * n.dot(cylinder.axes[0]) - cylinder.axes[0] * n.dot(cylinder.axes[1]);
+  return {around * (2 * double(kPi) * cylinder.radius), cylinder.axes[2] * cylinder.length};
+}
+
+Tangents tangents(const Surface& surface, const AccelHit& hit, const Imath::V3d& p) {
+  if (surface.mesh) return triangleTangents(*surface.mesh, surface.mesh->triangles[hit.primitive]);
+  if (surface.sphere) return sphereTangents(*surface.sphere, p);
+  if (surface.disk) return diskTangents(*surface.disk, p);
+  return cylinderTangents(*surface.cylinder, p);
+}
+
+/// `p` is the hit in the space of its shape.
+void addTangents(const Surface& surface, const Instance* instance, const AccelHit& hit, const Imath::V3d& p,
+                 SurfaceInteraction& si) {
+  Tangents t = tangents(surface, hit, p);
+  if (instance) t = {instance->toWorld.vector(t.dpdu), instance->toWorld.vector(t.dpdv)};
+  si.dpdu = Vec3(t.dpdu);
+  si.dpdv = Vec3(t.dpdv);
+  const Vec3& n = si.frame.n;
+  const Vec3 s = si.dpdu - n * n.dot(si.dpdu);
+  if (!isFinite(si.dpdv) || !isUsable(s)) {
+    si.dpdu = si.dpdv = Vec3(0, 0, 0);
+    return;
+  }
+  si.frame.s = s.normalized();
+  si.frame.t = n.cross(si.frame.s);
+}
+
 double norm(const Imath::V3d (&m)[3]) {
   return std::sqrt(m[0].length2() + m[1].length2() + m[2].length2());
 }
 
 }  // namespace
+
+float uvPerLength(const Surface& surface) {
+  if (!surface.needsUvs) return 0;
+  if (surface.mesh) return surface.mesh->uvPerLength();
+  if (surface.sphere) return float(1 / (2 * double(kPi) * surface.sphere->radius));
+  if (surface.disk) return float(1 / std::sqrt(surface.disk->area() / double(kPi)));
+  return float(1 / std::sqrt(surface.cylinder->area()));
+}
 
 Geometry Surface::geometry() const {
   if (mesh) return mesh;
@@ -133,8 +180,10 @@ void completeInteraction(const Surface& surface, const Instance* instance, const
   si.uv = local.uv;
   si.wo = -ray.direction;
   si.distance = hit.t;
+  si.uvWidth = hit.t * surface.pixelUv;
   si.shape = surface.id;
   si.primitive = hit.primitive;
+  const Imath::V3d hitPoint = local.p;
   if (instance) {
     local.p = instance->toWorld.point(local.p);
     local.ng = unit(instance->toWorld.normal(Imath::V3d(local.ng)));
@@ -144,6 +193,7 @@ void completeInteraction(const Surface& surface, const Instance* instance, const
   si.p = Vec3(local.p);
   si.ng = local.ng.dot(ns) < 0 ? -local.ng : local.ng;
   si.frame = Frame(ns);
+  if (surface.needsTangents) addTangents(surface, instance, hit, hitPoint, si);
   si.offset = surfaceOffset(si.p, si.ng);
   if (instance) si.offset += instance->error * (maxAbs(si.p) + maxAbs(Vec3(instance->toWorld.translation())));
 }

@@ -15,11 +15,16 @@ struct Surface {
   const Material* material = nullptr;
   const Light* light = nullptr;
   float lightPmf = 0;     ///< probability of choosing the light
-  bool needsUvs = false;  ///< some texture reads them
-  std::uint32_t id = 0;   ///< number of the shape in the whole scene
+  bool needsUvs = false;  ///< some texture reads them, or tangents follow them
+  bool needsTangents = false;
+  float pixelUv = 0;     ///< width of a pixel of the picture at distance 1, in texture coordinates
+  std::uint32_t id = 0;  ///< number of the shape in the whole scene
 
   Geometry geometry() const;
 };
+
+/// Texture coordinates per length on the surface, in the mean; 0 where they are not needed.
+float uvPerLength(const Surface& surface);
 
 /// A copy of a group, with the size of the rounding errors that Embree makes in taking rays to the group's space.
 struct Instance {

@@ -4,7 +4,7 @@
 
 namespace pt {
 
-/// Whether the material, or one inside it, reads a texture.
+/// Whether the material, or one inside it, reads texture coordinates: by a texture, or for the direction of highlights.
 bool usesTexture(const SceneDescription& description, int material);
 
 /// Whether the shape's texture coordinates are read at all.

@@ -78,6 +78,49 @@ TEST_CASE("a square light lights the floor as its form factor says", "[integrato
   }
 }
 
+TEST_CASE("a sheet with holes lets its share of the light through, whatever the sampling", "[integrators]") {
+  pt::SceneDescription description = floor();
+  addSquareLight(description, 2, 0.5f, 10);
+  description.camera->fovDegrees = 0.05f;   // one point of the floor
+  description.camera->toWorld[3][2] = 0.5;  // from below the sheet
+  description.materials.push_back({"black", pt::DiffuseMaterial{0.0f}, "test"});
+  description.materials.push_back({"sheet", pt::MaskMaterial{1, 0.4f}, "test"});
+  pt::ShapeDescription sheet = description.shapes[0];
+  sheet.toWorld.translate(pt::Vec3(0, 0, 1));
+  sheet.material = 2;
+  description.shapes.push_back(sheet);
+  const pt::Scene scene(description);
+  const double expected = 0.6 * radianceBelowSquare(0.5, 10, 0.5, 2);
+  for (const Variant& variant : kVariants) {
+    INFO(variant.name);
+    const RunningMean mean = meanOfRuns(scene, settingsOf(variant, description, 31), 60);
+    const ZResult agrees = zTest(mean, expected, 0.001);
+    INFO(agrees.message);
+    CHECK(agrees);
+    CHECK_FALSE(zTest(mean, 1.15 * expected, 0.001));
+  }
+}
+
+TEST_CASE("a square light with a texture lights the floor by the texture's mean", "[integrators]") {
+  pt::SceneDescription description = floor();
+  addSquareLight(description, 2, 0.5f, 10);
+  // Two of four quarters, all seen alike from the middle.
+  description.textures.push_back({pt::CheckerboardTexture{pt::Spectrum(1.2f), pt::Spectrum(0.4f)}, {}, "test"});
+  description.shapes.back().emission->texture = 0;
+  description.camera->fovDegrees = 0.05f;
+  description.camera->toWorld[3][2] = 1;
+  const pt::Scene scene(description);
+  const double expected = 0.8 * radianceBelowSquare(0.5, 10, 0.5, 2);
+  for (const Variant& variant : kVariants) {
+    INFO(variant.name);
+    const RunningMean mean = meanOfRuns(scene, settingsOf(variant, description, 31), 60);
+    const ZResult agrees = zTest(mean, expected, 0.001);
+    INFO(agrees.message);
+    CHECK(agrees);
+    CHECK_FALSE(zTest(mean, 1.1 * expected, 0.001));
+  }
+}
+
 TEST_CASE("a point light is found by light sampling alone, without noise", "[integrators]") {
   pt::SceneDescription description = floor();
   description.camera->fovDegrees = 0.05f;

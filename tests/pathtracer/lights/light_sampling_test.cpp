@@ -150,3 +150,32 @@ TEST_CASE("Samples from a light's own plane, centre or surface are valid or none
         REQUIRE(isFinite(sample.radiance));
       }
 }
+
+TEST_CASE("Samples of textured lights have the radiance that their ray meets") {
+  const Vec3 p(0.3f, -0.2f, 0.1f);
+  const auto check = [&](SceneDescription description, const Vec3& from) {
+    description.textures.push_back({CheckerboardTexture{Spectrum(3.0f), Spectrum(1.0f)}, {}, "test"});
+    description.shapes[0].emission->texture = 0;
+    const Scene scene(description);
+    test::Random random(4);
+    int bright = 0, dark = 0, different = 0;
+    for (int i = 0; i < 5000; ++i) {
+      const float uLight = random.next1D();
+      const auto sample = scene.sampleDirect(from, uLight, random.next2D());
+      SurfaceInteraction si;
+      if (!(sample.pdf > 0) || !scene.intersect({from, sample.wi}, si)) continue;
+      (sample.radiance.x == 3 ? bright : dark) += 1;
+      different += si.light->radiance(si, si.wo) != sample.radiance;
+    }
+    CHECK(bright > 200);
+    CHECK(dark > 200);
+    CHECK(different <= 10);  // where the colours meet
+  };
+  const Matrix4 near = test::skewed() * test::translation({0.5f, 0.3f, 1.2f});
+  check(test::litBy(RectangleShape{}, near, true), p);
+  check(test::litBy(test::makeUnevenSquare(), near, true), p);
+  check(test::litBy(DiskShape{}, near, true), p);
+  check(test::litBy(CylinderShape{}, near), Vec3(0.5f, 0.7f, -0.5f));
+  check(test::litBy(SphereShape{}, near), Vec3(0.5f, 0.7f, -0.5f));
+  check(test::litBy(SphereShape{}, Matrix4(), true), p);
+}

@@ -14,7 +14,7 @@ const SurfaceInteraction kSi{};
 TEST_CASE("BSDFs are reciprocal") {
   Random random(11);
   for (const NamedMaterial& m : smoothLobeMaterials()) {
-    const BuiltMaterial material(m.kind);
+    const BuiltMaterial material = m.build();
     int wrong = 0, compared = 0;
     for (int i = 0; i < 3000; ++i) {
       const Vec3 a = directionAt(180 * random.next1D(), 360 * random.next1D());
@@ -39,7 +39,7 @@ TEST_CASE("BSDFs are reciprocal") {
 
 TEST_CASE("BSDFs give back no more energy than they receive") {
   for (const NamedMaterial& m : smoothLobeMaterials()) {
-    const BuiltMaterial material(m.kind);
+    const BuiltMaterial material = m.build();
     for (const float angle : {0.0f, 40.0f, 75.0f, 88.0f, 100.0f, 160.0f}) {
       const Vec3 wo = directionAt(angle);
       Random random(12);
@@ -77,9 +77,10 @@ TEST_CASE("BSDFs stay finite and positive at the edges of their domains") {
     materials.push_back({"shiniest plastic", PlasticMaterial{1.5f, 1.0f, 0.5f, 1.0f, false, r}});
   }
   for (const NamedMaterial& m : materials) {
-    const BuiltMaterial material(m.kind);
-    // Sampling normals that wo does not see leaves weights unbounded at grazing angles.
-    const bool boundedWeights = m.name.find(" all") == std::string::npos;
+    const BuiltMaterial material = m.build();
+    // Sampling normals that wo does not see leaves weights unbounded at grazing angles, and so does Oren & Nayar's
+    // approximation where both angles are.
+    const bool boundedWeights = m.name.find(" all") == std::string::npos && m.name.find("rough diffuse") != 0;
     int unsound = 0;
     for (const Vec3& wo : directions) {
       for (const Vec3& wi : directions) {

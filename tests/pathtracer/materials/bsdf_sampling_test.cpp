@@ -45,7 +45,7 @@ TEST_CASE("BSDF samplers draw with the density that they state") {
   int tests = 0;
   for (const NamedMaterial& m : materials) tests += int(anglesFor(m).size());
   for (const NamedMaterial& m : materials) {
-    const BuiltMaterial material(m.kind);
+    const BuiltMaterial material = m.build();
     for (const float angle : anglesFor(m)) {
       const ChiSquareResult result =
           chiSquareOfMaterial(*material, directionAt(angle), {.samples = 100'000, .resolution = 39, .tests = tests});
@@ -88,7 +88,7 @@ TEST_CASE("A sample's weight and density are those of evaluate for the same dire
   const SurfaceInteraction si{};
   Random random(3);
   for (const NamedMaterial& m : smoothLobeMaterials()) {
-    const BuiltMaterial material(m.kind);
+    const BuiltMaterial material = m.build();
     for (const float angle : anglesFor(m)) {
       const Vec3 wo = directionAt(angle);
       int wrong = 0;
@@ -112,7 +112,7 @@ TEST_CASE("BSDF sampling covers the support of the value") {
   const SurfaceInteraction si{};
   Random random(4);
   for (const NamedMaterial& m : smoothLobeMaterials()) {
-    const BuiltMaterial material(m.kind);
+    const BuiltMaterial material = m.build();
     int uncovered = 0, values = 0;
     for (int i = 0; i < 20'000; ++i) {
       const Vec3 wo = directionAt(180 * random.next1D(), 360 * random.next1D());
@@ -151,7 +151,7 @@ AlbedoEstimates estimateAlbedo(const Material& material, const Vec3& wo) {
 
 TEST_CASE("Sampling estimates the integral of the value") {
   for (const NamedMaterial& m : smoothLobeMaterials()) {
-    const BuiltMaterial material(m.kind);
+    const BuiltMaterial material = m.build();
     for (const float angle : {20.0f, 70.0f}) {
       const AlbedoEstimates albedo = estimateAlbedo(*material, directionAt(angle));
       const ZResult result = zTest(albedo.bySampler, albedo.byUniformDirections, 1e-4);

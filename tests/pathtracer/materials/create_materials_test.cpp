@@ -39,14 +39,18 @@ TEST_CASE("Impossible parameters are input errors that name the place") {
   CHECK(errorOf(DielectricMaterial{1.5f, 1.5f, 1.0f, 1.0f, {}}).empty());
 }
 
-TEST_CASE("A texture is an input error") {
-  DiffuseMaterial diffuse;
-  diffuse.reflectance.texture = 0;
-  CHECK_THAT(errorOf(diffuse), Catch::Contains("textures are not supported yet"));
-  ConductorMaterial conductor;
-  conductor.roughness = Roughness{};
-  conductor.roughness->alpha.texture = 0;
-  CHECK_THAT(errorOf(conductor), Catch::Contains("alpha: textures"));
+TEST_CASE("Textures give parameters a factor, and must stay within bounds") {
+  const BuiltMaterial diffuse(DiffuseMaterial{{Spectrum(0.5f), 0}});
+  SurfaceInteraction si;
+  CHECK(diffuse->albedo(si).x == Approx(0.2f));
+  si.uv = {0.75f, 0.25f};
+  CHECK(diffuse->albedo(si).x == Approx(0.35f));
+
+  CHECK_THAT(errorOf(DiffuseMaterial{{Spectrum(2.0f), 0}}), Catch::Contains("reflectance, by its texture, (1.4, "));
+  CHECK_THAT(errorOf(DiffuseMaterial{{Spectrum(1.0f), 9}}), Catch::Contains("names texture 9, which does not exist"));
+  const Roughness r{{-1.0f, 0}, MicrofacetDistribution::Ggx, true, {}};
+  CHECK_THAT(errorOf(DielectricMaterial{1.5f, 1.0f, 1.0f, 1.0f, r}), Catch::Contains("alpha -0."));
+  CHECK_THAT(errorOf(MaskMaterial{0, 1.5f}), Catch::Contains("circle"));
 }
 
 TEST_CASE("Roughness below the threshold is a smooth surface") {
@@ -94,15 +98,49 @@ TEST_CASE("A two-sided material may stand before its sides and name another two-
   description.materials = {{"outer", TwoSidedMaterial{1, 1}, "a"},
                            {"inner", TwoSidedMaterial{2, 2}, "b"},
                            {"white", DiffuseMaterial{1.0f}, "c"}};
-  const auto materials = createMaterials(description);
+  const auto materials = createMaterials(description, TextureSet());
   CHECK(materials[0]->evaluate(kSi, directionAt(180), directionAt(180)).bsdfCos.x == Approx(1 / kPi));
+}
+
+TEST_CASE("A mask lets light pass straight on where it is not opaque") {
+  const std::vector<MaterialDescription> white = {{"white", DiffuseMaterial{1.0f}, "inside"}};
+  const BuiltMaterial mask(white, MaskMaterial{0, 0.25f});
+  CHECK(mask->traits().hasDelta);
+  CHECK(mask->traits().hasSmooth);
+  const Vec3 wo = directionAt(40), wi = directionAt(20, 200);
+  CHECK(mask->evaluate(kSi, wo, wi).bsdfCos.x == Approx(0.25f * wi.z / kPi));
+  const BsdfSample passed = mask->sample(kSi, wo, 0.26f, {0.5f, 0.5f});
+  CHECK(passed.isDelta);
+  CHECK(passed.wi == -wo);
+  CHECK(passed.weight.x == 1);
+  CHECK(passed.pdf == 0.75f);
+  CHECK(!mask->sample(kSi, wo, 0.24f, {0.5f, 0.5f}).isDelta);
+
+  CHECK(!BuiltMaterial(white, MaskMaterial{0, 0.0f})->traits().hasSmooth);
+  CHECK_THROWS_WITH(BuiltMaterial(white, MaskMaterial{0, 1.5f}), Catch::Contains("opacity 1.5 must lie in [0, 1]"));
+  const BsdfSample straight = BuiltMaterial(NullMaterial{})->sample(kSi, wo, 0.9f, {0.5f, 0.5f});
+  CHECK(straight.wi == -wo);
+  CHECK(straight.weight.x == 1);
+}
+
+TEST_CASE("Oren and Nayar's surface is Lambert's without roughness, and brighter towards the light with it") {
+  const Vec3 wo = directionAt(60, 0), same = directionAt(60, 1), opposite = directionAt(60, 180);
+  for (const bool fast : {false, true}) {
+    const BuiltMaterial flat(RoughDiffuseMaterial{0.8f, 0.0f, fast}), matt(RoughDiffuseMaterial{0.8f, 0.5f, fast});
+    CHECK(flat->evaluate(kSi, wo, opposite).bsdfCos.x == Approx(0.8f * opposite.z / kPi));
+    CHECK(matt->evaluate(kSi, wo, same).bsdfCos.x > 1.3f * matt->evaluate(kSi, wo, opposite).bsdfCos.x);
+    // [Oren & Nayar 1994, Eq. 30] at normal incidence: A, with sigma^2 = alpha^2 / 2.
+    const float sigma2 = 0.125f, a = 1 - 0.5f * sigma2 / (sigma2 + 0.33f);
+    const float twice = fast ? 0 : 0.17f * 0.8f * sigma2 / (sigma2 + 0.13f);
+    CHECK(matt->evaluate(kSi, directionAt(0), directionAt(0)).bsdfCos.x == Approx(0.8f / kPi * (a + twice)));
+  }
 }
 
 TEST_CASE("Impossible two-sided materials are input errors") {
   const auto fails = [](std::vector<MaterialDescription> materials, const char* text) {
     SceneDescription description;
     description.materials = std::move(materials);
-    CHECK_THROWS_WITH(createMaterials(description), Catch::Contains(text));
+    CHECK_THROWS_WITH(createMaterials(description, TextureSet()), Catch::Contains(text));
   };
   fails({{"t", TwoSidedMaterial{1, 1}, "scene.xml:7"}, {"glass", DielectricMaterial{}, "b"}},
         "scene.xml:7: a material that lets light");

@@ -7,6 +7,7 @@
 #include "materials/material.h"
 #include "statistics/chi_square.h"
 #include "statistics/quadrature.h"
+#include "textures/texture_set.h"
 
 /// Materials by description, for tests of BSDFs.
 namespace test {
@@ -15,17 +16,22 @@ namespace test {
 class BuiltMaterial {
  public:
   explicit BuiltMaterial(const decltype(pt::MaterialDescription::kind)& kind) : BuiltMaterial({}, kind) {}
+  /// The textures are boards of which SurfaceInteraction() meets the first colour: grey 0.4, and grey 0.2.
   BuiltMaterial(std::vector<pt::MaterialDescription> others, const decltype(pt::MaterialDescription::kind)& kind) {
     pt::SceneDescription description;
+    for (const float grey : {0.4f, 0.2f})
+      description.textures.push_back({pt::CheckerboardTexture{pt::Spectrum(grey), pt::Spectrum(0.7f)}, {}, "test"});
     description.materials = std::move(others);
     description.materials.push_back({"tested", kind, "test#/materials/0"});
-    m_materials = pt::createMaterials(description);
+    m_textures = pt::TextureSet(description);
+    m_materials = pt::createMaterials(description, m_textures);
   }
 
   const pt::Material& operator*() const { return *m_materials.back(); }
   const pt::Material* operator->() const { return m_materials.back().get(); }
 
  private:
+  pt::TextureSet m_textures;
   std::vector<std::unique_ptr<pt::Material>> m_materials;
 };
 
@@ -33,10 +39,45 @@ struct NamedMaterial {
   std::string name;
   decltype(pt::MaterialDescription::kind) kind;
   bool reflectsOnly = true;
+  std::vector<pt::MaterialDescription> others = {};  ///< that `kind` contains
+
+  BuiltMaterial build() const { return BuiltMaterial(others, kind); }
 };
 
 inline pt::Roughness rough(float alpha, pt::MicrofacetDistribution distribution, bool sampleVisible = true) {
-  return {alpha, distribution, sampleVisible};
+  return {alpha, distribution, sampleVisible, {}};
+}
+
+/// Each of its layers alone, and all together.
+inline std::vector<pt::PrincipledMaterial> principledMaterials() {
+  std::vector<pt::PrincipledMaterial> all(1);
+  const auto add = [&]() -> pt::PrincipledMaterial& {
+    all.emplace_back().baseColor = pt::Spectrum(0.8f, 0.5f, 0.2f);
+    return all.back();
+  };
+  add().roughness = 0.3f;
+  add().metallic = 1;
+  add().transmission = 1;
+  add().sheen = pt::Spectrum(1.0f, 0.3f, 0.6f);
+  pt::PrincipledMaterial& coated = add();
+  coated.clearcoat = 1;
+  coated.clearcoatRoughness = 0.3f;
+  pt::PrincipledMaterial& thin = add();
+  thin.transmission = 0.7f;
+  thin.thin = true;
+  pt::PrincipledMaterial& textured = add();
+  textured.baseColor = {pt::Spectrum(1.0f), 0};
+  textured.metallic = {1.0f, 1};
+  textured.roughness = {1.2f, 0};
+  pt::PrincipledMaterial& everything = add();
+  everything.metallic = 0.3f;
+  everything.anisotropy = 0.8f;
+  everything.specular = pt::Spectrum(0.9f, 0.4f, 1.0f);
+  everything.transmission = 0.5f;
+  everything.sheen = 0.5f;
+  everything.clearcoat = 0.6f;
+  everything.clearcoatRoughness = 0.5f;
+  return all;
 }
 
 /// Every kind that has a smooth lobe, over roughnesses and settings.
@@ -59,6 +100,41 @@ inline std::vector<NamedMaterial> smoothLobeMaterials() {
       }
     }
   }
+  all.push_back({"rough diffuse", pt::RoughDiffuseMaterial{pt::Spectrum(0.2f, 0.5f, 0.9f), 0.7f, false}});
+  all.push_back({"rough diffuse, fast", pt::RoughDiffuseMaterial{0.8f, 0.3f, true}});
+  all.push_back({"textured diffuse", pt::DiffuseMaterial{{pt::Spectrum(0.5f, 1, 1), 0}}});
+  const pt::Roughness texturedRoughness{{0.5f, 0}, Ggx, true, {}};
+  all.push_back({"textured conductor", pt::ConductorMaterial{eta, k, {pt::Spectrum(1), 0}, texturedRoughness}});
+  all.push_back({"textured dielectric",
+                 pt::DielectricMaterial{1.5f, 1.0f, {pt::Spectrum(1), 0}, {pt::Spectrum(1), 1}, texturedRoughness},
+                 false});
+  all.push_back(
+      {"textured plastic", pt::PlasticMaterial{1.5f, 1.0f, {pt::Spectrum(1), 0}, 1.0f, true, texturedRoughness}});
+  all.push_back({"textured smooth plastic", pt::PlasticMaterial{1.5f, 1.0f, {pt::Spectrum(1), 0}, 0.5f, true, {}}});
+  const std::vector<pt::MaterialDescription> glass = {
+      {"glass", pt::DielectricMaterial{1.5f, 1.0f, 1.0f, 1.0f, rough(0.3f, Ggx)}, "inside"}};
+  all.push_back({"mask", pt::MaskMaterial{0, 0.6f}, true, {{"coated", pt::PlasticMaterial{}, "inside"}}});
+  all.push_back({"textured mask", pt::MaskMaterial{0, {0.8f, 0}}, true, {{"white", pt::DiffuseMaterial{}, "inside"}}});
+  const std::vector<pt::MaterialDescription> pair = {
+      {"metal", pt::ConductorMaterial{eta, k, 1.0f, rough(0.2f, Ggx)}, "inside"},
+      {"coated", pt::PlasticMaterial{1.5f, 1.0f, 0.5f, 1.0f, false, {}}, "inside"}};
+  all.push_back({"blend", pt::BlendMaterial{0, 1, 0.3f}, true, pair});
+  all.push_back({"blend with glass",
+                 pt::BlendMaterial{0, 1, {0.5f, 0}},
+                 false,
+                 {glass[0], {"chalk", pt::DiffuseMaterial{}, "inside"}}});
+  for (const bool visible : {true, false}) {
+    const std::string suffix = visible ? " visible" : " all";
+    for (const auto distribution : {Ggx, Beckmann}) {
+      const std::string d = distribution == Ggx ? "GGX" : "Beckmann";
+      const pt::Roughness stretched{0.1f, distribution, visible, pt::FloatParameter(0.4f)};
+      all.push_back({"stretched conductor " + d + suffix, pt::ConductorMaterial{eta, k, 1.0f, stretched}});
+      all.push_back(
+          {"stretched dielectric " + d + suffix, pt::DielectricMaterial{1.5f, 1.0f, 1.0f, 1.0f, stretched}, false});
+    }
+  }
+  for (pt::PrincipledMaterial& m : principledMaterials())
+    all.push_back({"principled " + std::to_string(all.size()), m, m.transmission.value == 0});
   all.push_back({"tinted dielectric", pt::DielectricMaterial{1.3f, 1.0f, 0.3f, 0.9f, rough(0.3f, Ggx)}, false});
   all.push_back({"dense exterior", pt::DielectricMaterial{1.0f, 1.4f, 1.0f, 1.0f, rough(0.3f, Beckmann)}, false});
   return all;
@@ -72,8 +148,8 @@ inline pt::Vec3 directionAt(float degrees, float azimuthDegrees = 25) {
 
 /// Chi-square test of the smooth lobes of a material. Delta and failed draws count as failed samples.
 inline ChiSquareResult chiSquareOfMaterial(const pt::Material& material, const pt::Vec3& wo,
-                                           const ChiSquareSettings& settings) {
-  const pt::SurfaceInteraction si{};
+                                           const ChiSquareSettings& settings,
+                                           const pt::SurfaceInteraction& si = pt::SurfaceInteraction()) {
   const auto sample = [&](Random& random) -> std::optional<Imath::V3f> {
     const float uLobe = random.next1D();
     const pt::BsdfSample s = material.sample(si, wo, uLobe, random.next2D());

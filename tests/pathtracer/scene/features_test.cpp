@@ -57,3 +57,19 @@ TEST_CASE("Without smooth materials there is nothing to guide") {
   REQUIRE(scene.intersect({{0, 0, -5}, {0, 0, 1}}, si));
   CHECK(si.material == nullptr);
 }
+
+TEST_CASE("Only shapes with textures keep texture coordinates") {
+  auto description = test::sceneOf(RectangleShape{});
+  description.shapes.push_back(test::makeShape(RectangleShape{}, test::translation({0, 0, 2})));
+  description.textures.push_back({CheckerboardTexture{}, {}, "test"});
+  description.materials.push_back({"board", DiffuseMaterial{{Spectrum(1.0f), 0}}, "test"});
+  description.materials.push_back({"masked board", MaskMaterial{1, 0.5f}, "test"});
+  const std::size_t plain = Scene(description).counts().memoryBytes;
+  description.shapes[1].material = 2;
+  const Scene scene(description);
+  CHECK(scene.counts().memoryBytes == plain + 4 * sizeof(Vec2));
+  CHECK(scene.features().hasTextures);
+  CHECK(lists(scene.features().present, "textures (1)"));
+  CHECK(lists(scene.features().present, "shapes with texture coordinates (1)"));
+  CHECK(lists(scene.features().leftOut, "texture cache (all pictures are held in memory)"));
+}

@@ -184,3 +184,46 @@ TEST_CASE("An empty scene has nothing to hit") {
   CHECK(scene.sampleDirect({0, 0, 0}, 0.5f, {0.5f, 0.5f}).pdf == 0);
   CHECK_FALSE(scene.bounds().isEmpty());
 }
+
+namespace {
+
+/// Differences of points on either side agree with the tangents, on a shape seen along -z.
+void checkTangents(SceneDescription description, const Vec3& target, float tolerance) {
+  description.materials.push_back({"bump", BumpMaterial{0, 0, 0.0f}, "test"});
+  description.textures.push_back({CheckerboardTexture{}, {}, "test"});
+  for (auto& shape : description.shapes)
+    if (!std::holds_alternative<InstanceShape>(shape.kind)) shape.material = 1;
+  for (auto& group : description.groups)
+    for (auto& shape : group.shapes) shape.material = 1;
+  const Scene scene(description);
+  const auto hit = [&](const Vec3& p) {
+    SurfaceInteraction si;
+    REQUIRE(scene.intersect({p + Vec3(0, 0, 9), Vec3(0, 0, -1)}, si));
+    return si;
+  };
+  const SurfaceInteraction si = hit(target);
+  CHECK(si.frame.s.dot(si.dpdu.normalized()) > 0.99f);
+  CHECK(std::abs(si.frame.s.dot(si.frame.n)) < 1e-5f);
+  CHECK((si.frame.n.cross(si.frame.s) - si.frame.t).length() < 1e-5f);
+  for (const Vec3& step : {Vec3(1e-3f, 0, 0), Vec3(0, 1e-3f, 0)}) {
+    const SurfaceInteraction a = hit(target - step), b = hit(target + step);
+    const Vec2 duv = b.uv - a.uv;
+    const Vec3 predicted = si.dpdu * duv.x + si.dpdv * duv.y;
+    CHECK((b.p - a.p - predicted).length() < tolerance * (b.p - a.p).length());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Tangents are the derivatives of points with respect to texture coordinates") {
+  const Matrix4 squeezed = Matrix4(2, 0.3f, 0, 0, -0.4f, 1.5f, 0.2f, 0, 0, 0.1f, 1, 0, 0.1f, 0.2f, 0.3f, 1);
+  checkTangents(test::sceneOf(RectangleShape{}, squeezed), {0.3f, 0.2f, 0}, 1e-3f);
+  checkTangents(test::sceneOf(DiskShape{}, squeezed), {0.6f, 0.5f, 0}, 5e-3f);
+  checkTangents(test::sceneOf(SphereShape{{0, 0, 0}, 2}), {0.7f, -0.4f, 0}, 5e-3f);
+  const Matrix4 mirrored = Matrix4(-2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1);
+  checkTangents(test::sceneOf(CylinderShape{{0, -1, 0}, {0, 1, 0}, 1}, mirrored), {0.7f, -0.4f, 0}, 5e-3f);
+  SceneDescription instanced = test::emptyScene();
+  instanced.groups.push_back({"group", {test::makeShape(SphereShape{{0, 0, 0}, 2})}});
+  instanced.shapes.push_back(test::makeShape(InstanceShape{0}, squeezed));
+  checkTangents(instanced, {0.7f, -0.4f, 0}, 1e-2f);
+}
