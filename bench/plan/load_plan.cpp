@@ -64,6 +64,10 @@ void readSettings(JsonObject& object, Variant& variant) {
   variant.nee = object.boolean("nee", true);
   variant.heuristic = choice(object, "heuristic", pt::MisHeuristic::Balance);
   variant.sampler = choice(object, "sampler", pt::SamplerKind::Independent);
+  if (const Json* direct = object.find("direct")) {
+    const JsonPlace place = object.placeOf("direct");
+    variant.direct = pt::directSettingsFromJson(*direct, place.file, place.pointer);
+  }
   if (const Json* guiding = object.find("guiding")) variant.guiding = readGuiding(*guiding, object.placeOf("guiding"));
 }
 

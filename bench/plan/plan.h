@@ -22,6 +22,7 @@ struct Variant {
   bool nee = true;
   pt::MisHeuristic heuristic = pt::MisHeuristic::Balance;
   pt::SamplerKind sampler = pt::SamplerKind::Independent;
+  std::optional<pt::DirectSettings> direct;    ///< none: the path tracer
   std::optional<pt::GuidingSettings> guiding;  ///< none: unguided
   Json source;                                 ///< as the plan has it, for hashes and reports
 };

@@ -104,6 +104,7 @@ std::string cellKey(const Plan& plan, const Job& job, const std::string& sceneHa
   json["reference"] = {referenceKey(*job.scene, reference, sceneHash), reference.parts};
   json["variant"] = job.variant->source;
   if (job.variant->guiding) json["variant"]["guiding"] = pt::toJson(*job.variant->guiding);  // presets may change
+  if (job.variant->direct) json["variant"]["direct"] = pt::toJson(*job.variant->direct);
   json["variant"].erase("note");
   const Budget& budget = plan.budgetOf(*job.scene);
   json["budget"] = {budget.seconds, budget.spp};

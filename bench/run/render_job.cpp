@@ -31,6 +31,7 @@ pt::RenderSettings settingsFor(const pt::SceneDescription& scene, const Variant&
   settings.threads = plan.threads;
   settings.nee = variant.nee;
   settings.heuristic = variant.heuristic;
+  settings.direct = variant.direct;
   settings.guiding = variant.guiding;
   return settings;
 }

@@ -31,6 +31,7 @@ template <ConvexVariables kVariables>
 class ConvexShare {
  public:
   explicit ConvexShare(std::size_t capacity) { m_samples.reserve(capacity); }
+  ConvexShare(ConvexShare&&) noexcept = default;  // a copy would lose the capacity
 
   void add(const TechniqueSample& sample) noexcept {
     if (m_samples.size() == m_samples.capacity()) return;

@@ -71,13 +71,41 @@ std::optional<GuidingSettings> findGuiding(const std::string& name) {
 }
 
 std::optional<GuidingSettings> guidingSettings(const SamplingOptions& options) {
-  std::optional<GuidingSettings> settings = findGuiding(options.guiding);
+  std::optional<GuidingSettings> settings = findGuiding(guidingName(options));
   if (options.compensation.empty()) return settings;
   if (!settings)
     throw InputError(
         fmt::format("--compensation {}: there is nothing to compensate with --guiding none", options.compensation));
   if (settings->openPgl) throw InputError(fmt::format("--compensation {}: Open PGL has none", options.compensation));
   settings->field.compensation = parseCompensation(options.compensation);
+  return settings;
+}
+
+/// "rule", or "fixed:share".
+void parseAllocation(const std::string& text, DirectSettings& settings) {
+  const std::size_t colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  const auto* allocation = valueOfLabel<Allocation>(name);
+  if (!allocation)
+    throw InputError(fmt::format("--allocation {}: no such rule{}", text, suggestName(name, labelsOf<Allocation>())));
+  settings.allocation = *allocation;
+  if (colon == std::string::npos) return;
+  const auto share = parseNumber<double>(std::string_view(text).substr(colon + 1));
+  if (*allocation != Allocation::Fixed || !share || !(*share > 0 && *share < 1))
+    throw InputError(fmt::format("--allocation {}: only fixed takes a share, between 0 and 1, as in fixed:0.3", text));
+  settings.share = *share;
+}
+
+std::optional<DirectSettings> directSettings(const IntegratorOptions& options) {
+  const bool asks = !options.allocation.empty() || !options.mis.empty() || options.samples;
+  if (!options.isDirect()) {
+    if (asks) throw InputError("--allocation, --mis and --direct-samples are for --integrator direct; add it");
+    return std::nullopt;
+  }
+  DirectSettings settings;
+  if (!options.allocation.empty()) parseAllocation(options.allocation, settings);
+  if (!options.mis.empty()) settings.estimator = *valueOfLabel<DirectEstimator>(options.mis);
+  if (options.samples) settings.samples = *options.samples;
   return settings;
 }
 
@@ -115,7 +143,7 @@ void addOptions(CLI::App& command, SamplingOptions& options) {
   auto* spp =
       command.add_option("--spp", options.spp, "Samples per pixel in all, training included (default: the scene's)");
   command.add_option("--seconds", options.seconds, "Time in all, training included, instead of --spp")->excludes(spp);
-  command.add_option("--guiding", options.guiding, presetHelp())->capture_default_str();
+  command.add_option("--guiding", options.guiding, presetHelp() + " (default: recommended)");
   auto* compensation = command.add_option(
       "--compensation", options.compensation,
       "Sharpens the guide against BSDF sampling: none, uniform or clip, with an optional strength from 0 to 1 as in "
@@ -138,6 +166,30 @@ void addOptions(CLI::App& command, SamplingOptions& options) {
   command.add_option("--seed", options.seed, "Another seed gives another, equally good picture")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+}
+
+void addOptions(CLI::App& command, IntegratorOptions& options) {
+  command
+      .add_option("--integrator", options.integrator,
+                  "path, or direct: light scattered once at most, for comparing ways to share samples between BSDF and "
+                  "light sampling")
+      ->check(CLI::IsMember({"path", "direct"}))
+      ->capture_default_str();
+  command.add_option("--allocation", options.allocation,
+                     fmt::format("Shares of samples, with --integrator direct: {} (default: fixed:0.5)",
+                                 fmt::join(labelsOf<Allocation>(), ", ")));
+  command
+      .add_option("--mis", options.mis,
+                  "Estimator, with --integrator direct: weighted by --heuristic (multiSample, the default, or "
+                  "oneSample), or by optimal weights (optimal, optimalDirect)")
+      ->check(memberOf<DirectEstimator>());
+  command.add_option("--direct-samples", options.samples,
+                     "Samples of each camera ray, with --integrator direct (default: 16)");
+}
+
+std::string guidingName(const SamplingOptions& options) {
+  if (!options.guiding.empty()) return options.guiding;
+  return options.integrator.isDirect() ? "none" : "recommended";
 }
 
 void requireDistinct(const std::vector<OutputFile>& outputs, const SceneOptions& scene,
@@ -185,6 +237,7 @@ RenderSettings renderSettings(const SamplingOptions& options, const SceneDescrip
   settings.spp = options.spp.value_or(options.seconds ? 0 : description.spp);
   settings.nee = options.nee == "on";
   settings.heuristic = *valueOfLabel<MisHeuristic>(options.heuristic);
+  settings.direct = directSettings(options.integrator);
   settings.guiding = guidingSettings(options);
   if (!options.field.empty() && !settings.guiding)
     throw InputError(

@@ -21,12 +21,22 @@ struct SceneOptions {
   std::optional<int> maxDepth, rrDepth;
 };
 
+/// Which integrator, and how the direct one samples. Empty: as by default.
+struct IntegratorOptions {
+  std::string integrator = "path";
+  std::string allocation, mis;
+  std::optional<int> samples;
+
+  bool isDirect() const { return integrator == "direct"; }
+};
+
 /// How to sample and guide.
 struct SamplingOptions {
   std::optional<std::int64_t> spp;
   std::optional<double> seconds;
-  std::string guiding = "recommended";  ///< preset or settings file
-  std::string compensation;             ///< empty: as `guiding` says
+  IntegratorOptions integrator;
+  std::string guiding;       ///< preset or settings file; empty: as the integrator wants it
+  std::string compensation;  ///< empty: as `guiding` says
   std::filesystem::path field;
   std::string nee = "on", heuristic = "balance", sampler;
   int threads = 0;
@@ -35,6 +45,10 @@ struct SamplingOptions {
 
 void addOptions(CLI::App& command, SceneOptions& options);
 void addOptions(CLI::App& command, SamplingOptions& options);
+void addOptions(CLI::App& command, IntegratorOptions& options);
+
+/// The preset or settings file that holds.
+std::string guidingName(const SamplingOptions& options);
 
 /// An option that names a file to be written, and the file.
 struct OutputFile {

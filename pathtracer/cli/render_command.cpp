@@ -124,7 +124,7 @@ AovSelection parseAovs(const std::vector<std::string>& names) {
 void renderPicture(RenderOptions options) {
   fillOutputNames(options);
   checkOutputs(options);
-  if (!options.saveField.empty() && options.sampling.guiding == "none")
+  if (!options.saveField.empty() && guidingName(options.sampling) == "none")
     throw InputError("--save-field: there is no field to save with --guiding none");
   const AovSelection aovs = parseAovs(options.aovs);
   RenderJob job = prepareJob(options.scene, options.sampling);
@@ -146,6 +146,7 @@ Command addRenderCommand(CLI::App& program) {
   auto options = std::make_shared<RenderOptions>();
   addOptions(*command, options->scene);
   addOptions(*command, options->sampling);
+  addOptions(*command, options->sampling.integrator);
   command->add_option("-o,--output", options->output, "The picture, *.exr (default: the scene's name)");
   command->add_option("--png", options->png, "The preview (default: beside the picture)");
   command->add_option("--exposure", options->exposure, "Brightens the preview by this many stops")

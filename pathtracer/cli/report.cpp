@@ -76,6 +76,7 @@ nlohmann::ordered_json toJson(const RenderSettings& settings) {
           {"hideEmitters", settings.path.hideEmitters},
           {"nee", settings.nee},
           {"heuristic", labelOf(settings.heuristic)},
+          {"direct", settings.direct ? toJson(*settings.direct) : Json()},
           {"guiding", settings.guiding ? toJson(*settings.guiding) : Json()},
           {"learnFinal", settings.learnFinal}};
 }

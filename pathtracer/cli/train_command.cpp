@@ -19,7 +19,7 @@ struct TrainOptions {
 };
 
 void train(TrainOptions options) {
-  if (options.sampling.guiding == "none")
+  if (guidingName(options.sampling) == "none")
     throw InputError("--guiding none: there is nothing to train; choose a preset");
   if (options.output.empty()) options.output = nameAfter(options.scene.file) + ".field";
   requireDistinct({{"-o", options.output}, {"--report", options.report}}, options.scene, options.sampling);

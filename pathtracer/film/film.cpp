@@ -25,12 +25,17 @@ double meanWithoutWorst(std::vector<double>& values) {
 
 }  // namespace
 
-Film::Film(int width, int height) : m_width(width), m_height(height), m_pixels(std::size_t(width) * height, Pixel{}) {}
+Film::Film(int width, int height, bool allowsNegative)
+    : m_width(width),
+      m_height(height),
+      m_allowsNegative(allowsNegative),
+      m_pixels(std::size_t(width) * height, Pixel{}) {}
 
 void Film::add(int x, int y, const Spectrum& radiance) noexcept {
   Pixel& pixel = m_pixels[std::size_t(y) * m_width + x];
   ++pixel.count;
-  if (!isFinite(radiance) || radiance.x < 0 || radiance.y < 0 || radiance.z < 0) {
+  const bool isNegative = radiance.x < 0 || radiance.y < 0 || radiance.z < 0;
+  if (!isFinite(radiance) || (isNegative && !m_allowsNegative)) {
     ++pixel.rejected;
     return;
   }

@@ -23,13 +23,14 @@ struct Image {
 /// time.
 class Film {
  public:
-  Film(int width, int height);
+  /// `allowsNegative`: values below 0 count too, for estimators whose samples may be negative.
+  Film(int width, int height, bool allowsNegative = false);
 
   int width() const noexcept { return m_width; }
   int height() const noexcept { return m_height; }
 
-  /// Adds one sample of pixel (x, y). A non-finite or negative sample counts as black and is reported by
-  /// rejectedSamples().
+  /// Adds one sample of pixel (x, y). A non-finite sample, or a negative one where that is not allowed, counts as black
+  /// and is reported by rejectedSamples().
   void add(int x, int y, const Spectrum& radiance) noexcept;
 
   /// Adds what the same sample tells of the second moment that the pixel would have without a guide
@@ -65,6 +66,7 @@ class Film {
   static double variance(const Pixel& pixel, double sumOfSquares) noexcept;
 
   int m_width, m_height;
+  bool m_allowsNegative;
   std::vector<Pixel> m_pixels;
 };
 

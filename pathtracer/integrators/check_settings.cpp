@@ -40,6 +40,16 @@ void checkPath(const IntegratorDescription& path) {
         fmt::format("rrDepth {} is impossible: Russian roulette starts at depth 1 at the earliest", path.rrDepth));
 }
 
+void checkDirect(const RenderSettings& settings) {
+  const auto fail = [](const std::string& text) { throw InputError("direct: " + text); };
+  if (const auto status = settings.direct->validate(); !status) fail(status.error().text);
+  if (settings.guiding) fail("this integrator takes no guide; leave guiding out");
+  if (!usesOptimalWeights(settings.direct->estimator)) return;
+  if (settings.heuristic != MisHeuristic::Balance)
+    fail("optimal weights take the heuristic's place; leave it at balance");
+  if (!settings.nee) fail("optimal weights need light sampling; switch it on, or choose multiSample");
+}
+
 }  // namespace
 
 void checkSettings(const RenderSettings& settings) {
@@ -47,6 +57,7 @@ void checkSettings(const RenderSettings& settings) {
   checkBudget(settings);
   checkPath(settings.path);
   if (settings.threads < 0) throw InputError(fmt::format("{} threads are impossible: use 0 for all", settings.threads));
+  if (settings.direct) checkDirect(settings);
   if (!settings.guiding) return;
   if (const auto status = settings.guiding->field.validate(); !status)
     throw InputError("guiding settings: " + status.error().text);

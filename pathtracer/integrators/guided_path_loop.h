@@ -33,7 +33,7 @@ class GuidedPathLoop final : public PathLoop {
         m_hasMedia(scene.features().hasMedia),
         m_powerHeuristic(settings.heuristic == MisHeuristic::Power) {}
 
-  Spectrum trace(Ray ray, Sampler& sampler, PathWorker& worker) const noexcept override;
+  Spectrum trace(Ray ray, int x, int y, Sampler& sampler, PathWorker& worker) const noexcept override;
 
  private:
   using Distribution = typename Guides::Distribution;
@@ -87,7 +87,7 @@ struct GuidedPathLoop<Guides>::PathState {
 };
 
 template <GuideSource Guides>
-Spectrum GuidedPathLoop<Guides>::trace(Ray ray, Sampler& sampler, PathWorker& worker) const noexcept {
+Spectrum GuidedPathLoop<Guides>::trace(Ray ray, int, int, Sampler& sampler, PathWorker& worker) const noexcept {
   PathState path;
   SurfaceInteraction si;
   if (worker.records) worker.recorder.begin();

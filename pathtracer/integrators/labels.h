@@ -102,6 +102,31 @@ struct Labels<MisHeuristic> {
 };
 
 template <>
+struct Labels<Allocation> {
+  static constexpr std::array<std::pair<Allocation, std::string_view>, 9> kTable{{
+      {Allocation::Fixed, "fixed"},
+      {Allocation::SecondOrder, "secondOrder"},
+      {Allocation::Convex, "convex"},
+      {Allocation::ConvexControl, "convexControl"},
+      {Allocation::InverseVariance, "inverseVariance"},
+      {Allocation::EqualCountDeviation, "equalCountDeviation"},
+      {Allocation::EqualCountMoment, "equalCountMoment"},
+      {Allocation::Representativity, "representativity"},
+      {Allocation::Population, "population"},
+  }};
+};
+
+template <>
+struct Labels<DirectEstimator> {
+  static constexpr std::array<std::pair<DirectEstimator, std::string_view>, 4> kTable{{
+      {DirectEstimator::MultiSample, "multiSample"},
+      {DirectEstimator::OneSample, "oneSample"},
+      {DirectEstimator::Optimal, "optimal"},
+      {DirectEstimator::OptimalDirect, "optimalDirect"},
+  }};
+};
+
+template <>
 struct Labels<SamplerKind> {
   static constexpr std::array<std::pair<SamplerKind, std::string_view>, 2> kTable{{
       {SamplerKind::Independent, "independent"},

@@ -55,7 +55,7 @@ void PassRenderer::renderTile(const Tile& tile, const PathLoop& loop, SampleRang
         const Vec2 film = Vec2(float(x) + 0.5f, float(y) + 0.5f) + sampleFilter(m_settings.filter, sampler.next2D());
         const Ray ray = m_scene.camera().generateRay(film, sampler.next2D());
         firstHit = {};
-        targets.film.add(x, y, loop.trace(ray, sampler, worker));
+        targets.film.add(x, y, loop.trace(ray, x, y, sampler, worker));
         targets.film.addUnguidedSquare(x, y, worker.unguidedSquare);
         ++worker.counters.paths;
         if (targets.aovs) targets.aovs->add(x, y, firstHit);

@@ -29,13 +29,14 @@ struct PathWorker {
   float unguidedSquare = 0;
 };
 
-/// Traces paths. Stateless and thread-safe, as long as no two threads share a worker.
+/// Traces paths. Thread-safe, as long as no two threads share a worker or a pixel.
 class PathLoop {
  public:
   virtual ~PathLoop() = default;
 
-  /// Radiance that arrives along the ray. Tells the worker's recorder every event of the path when it records.
-  virtual Spectrum trace(Ray ray, Sampler& sampler, PathWorker& worker) const noexcept = 0;
+  /// Radiance that arrives along the ray through pixel (x, y). Tells the worker's recorder every event of the path when
+  /// it records.
+  virtual Spectrum trace(Ray ray, int x, int y, Sampler& sampler, PathWorker& worker) const noexcept = 0;
 };
 
 }  // namespace pt

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "integrators/aov_film.h"
 #include "integrators/check_settings.h"
+#include "integrators/direct/direct_loop.h"
 #include "integrators/iteration_images.h"
 #include "integrators/pass_renderer.h"
 #include "integrators/path_guide.h"
@@ -28,6 +29,8 @@ class RenderRun {
  private:
   guiding::IterationPlan nextPlan() const;
   bool learns(const guiding::IterationPlan& plan) const;
+  bool guides(const guiding::IterationPlan& plan) const { return m_guide && plan.usesGuide && m_guide->hasGuide(); }
+  std::unique_ptr<PathLoop> makeLoop(const guiding::IterationPlan& plan);
   void renderIteration(const guiding::IterationPlan& plan);
   void closeIteration(const guiding::IterationPlan& plan, bool guided);
   void endGuideIteration();
@@ -69,7 +72,7 @@ RenderRun::RenderRun(const Scene& scene, const RenderSettings& settings, const R
       m_settings(settings),
       m_hooks(hooks),
       m_passes(scene, settings),
-      m_film(settings.width, settings.height),
+      m_film(settings.width, settings.height, settings.direct && usesOptimalWeights(settings.direct->estimator)),
       m_images(settings.aovs.variance) {
   const AovSelection& aovs = settings.aovs;
   if (aovs.albedo || aovs.normal || aovs.depth) m_aovs.emplace(settings.width, settings.height, aovs);
@@ -106,10 +109,14 @@ bool RenderRun::learns(const guiding::IterationPlan& plan) const {
   return m_guide && plan.usesGuide && (!plan.isFinal || m_settings.learnFinal);
 }
 
+std::unique_ptr<PathLoop> RenderRun::makeLoop(const guiding::IterationPlan& plan) {
+  if (m_settings.direct) return directLoop(m_scene, m_settings);
+  if (guides(plan)) return m_guide->makeLoop(m_scene, m_settings, m_passes.workers().count());
+  return unguidedLoop(m_scene, m_settings);
+}
+
 void RenderRun::renderIteration(const guiding::IterationPlan& plan) {
-  const bool hasGuide = m_guide && plan.usesGuide && m_guide->hasGuide();
-  const std::unique_ptr<PathLoop> loop =
-      hasGuide ? m_guide->makeLoop(m_scene, m_settings, m_passes.workers().count()) : unguidedLoop(m_scene, m_settings);
+  const std::unique_ptr<PathLoop> loop = makeLoop(plan);
   const PassTargets targets{m_film, m_aovs ? &*m_aovs : nullptr, learns(plan) ? m_guide.get() : nullptr};
   const std::int64_t pixels = std::int64_t(m_settings.width) * m_settings.height;
   const std::int64_t sppOfPass = std::max<std::int64_t>(1, kPathsPerPass / pixels);
@@ -127,7 +134,7 @@ void RenderRun::renderIteration(const guiding::IterationPlan& plan) {
     m_passSeconds = m_clock.seconds() - passStart;
     m_clock.excluded([&] { callHooks(plan); });
   } while (m_sppOfIteration < plan.spp && !timeIsOver() && !stopped());
-  closeIteration(plan, hasGuide);
+  closeIteration(plan, guides(plan));
 }
 
 void RenderRun::closeIteration(const guiding::IterationPlan& plan, bool guided) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "film/film.h"
+#include "integrators/direct/direct_settings.h"
 #include "openpgl/openpgl_settings.h"
 #include "scene/scene.h"
 
@@ -46,6 +47,7 @@ struct RenderSettings {
   MisHeuristic heuristic = MisHeuristic::Balance;
   AovSelection aovs;
 
+  std::optional<DirectSettings> direct;    ///< there: the direct-lighting integrator renders instead of the path tracer
   std::optional<GuidingSettings> guiding;  ///< none: unguided
   bool learnFinal = false;  ///< the final iteration is recorded and learned too (training for its own sake)
 };

@@ -73,6 +73,16 @@ void visitMembers(Is<GuidingSettings> auto& s, auto&& visitor) {
   visitor("schedule", s.schedule);
 }
 
+void visitMembers(Is<DirectSettings> auto& s, auto&& visitor) {
+  visitor("allocation", s.allocation);
+  visitor("mis", s.estimator);
+  visitor("samples", s.samples);
+  visitor("share", s.share);
+  visitor("pilot", s.pilot);
+  visitor("minimumShare", s.limits.minimum);
+  visitor("relativeCost", s.limits.relativeCost);
+}
+
 template <class T>
 Json written(const T& value);
 
@@ -181,6 +191,14 @@ GuidingSettings guidingSettingsFromJson(const nlohmann::ordered_json& json, cons
   return settings;
 }
 
+DirectSettings directSettingsFromJson(const nlohmann::ordered_json& json, const std::string& source,
+                                      const std::string& pointer) {
+  DirectSettings settings;
+  readMembers(Place{json, source, pointer}, settings);
+  if (const auto status = settings.validate(); !status) Place{json, source, pointer}.fail(status.error().text);
+  return settings;
+}
+
 GuidingSettings loadGuidingSettings(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream)
@@ -199,6 +217,9 @@ nlohmann::ordered_json toJson(const GuidingSettings& settings) {
   return writtenMembers(settings);
 }
 nlohmann::ordered_json toJson(const guiding::FieldSettings& settings) {
+  return writtenMembers(settings);
+}
+nlohmann::ordered_json toJson(const DirectSettings& settings) {
   return writtenMembers(settings);
 }
 

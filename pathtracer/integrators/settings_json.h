@@ -19,8 +19,14 @@ GuidingSettings guidingSettingsFromJson(const nlohmann::ordered_json& json, cons
 /// The same from a file.
 GuidingSettings loadGuidingSettings(const std::filesystem::path& file);
 
+/// Reads settings of the direct-lighting integrator: {"allocation": "convex", "mis": "multiSample", "samples": 16,
+/// "share": 0.5, "pilot": 4, "minimumShare": 0.05, "relativeCost": 1}, each part optional. Errors as above.
+DirectSettings directSettingsFromJson(const nlohmann::ordered_json& json, const std::string& source,
+                                      const std::string& pointer = {});
+
 /// Everything, such that guidingSettingsFromJson() gives the same settings back.
 nlohmann::ordered_json toJson(const GuidingSettings& settings);
 nlohmann::ordered_json toJson(const guiding::FieldSettings& settings);
+nlohmann::ordered_json toJson(const DirectSettings& settings);
 
 }  // namespace pt

@@ -56,6 +56,7 @@ TEST_CASE("a plan says what to run") {
   CHECK(plan.baseline == "path");
   REQUIRE(plan.variants.size() == 2);
   CHECK_FALSE(plan.variants[0].guiding);
+  CHECK_FALSE(plan.variants[0].direct);
   REQUIRE(plan.variants[1].guiding);
   CHECK(plan.variants[1].guiding->field.dTreeThreshold == 0.02f);
   CHECK_FALSE(plan.variants[1].nee);
@@ -103,6 +104,12 @@ TEST_CASE("a broken plan gives one line with the JSON pointer") {
     CHECK(complaint(plan).starts_with("#/variants/1/guiding/field: dTreeThreshold"));
     plan["variants"][1]["guiding"] = "muller2017";
     CHECK(complaint(plan) == "#/variants/1/guiding: no guiding preset 'muller2017'; did you mean 'mueller2017'?");
+  }
+  SECTION("settings of the direct integrator") {
+    plan["variants"][1]["direct"] = {{"allocation", "convx"}};
+    CHECK(complaint(plan) == "#/variants/1/direct/allocation: 'convx' is no choice here; did you mean 'convex'?");
+    plan["variants"][1]["direct"] = {{"samples", 1}};
+    CHECK(complaint(plan) == "#/variants/1/direct: samples must lie in [2, 4096]");
   }
   SECTION("names") {
     plan["variants"][1]["name"] = "path";

@@ -165,6 +165,18 @@ TEST_CASE("options that make no sense", "[cli]") {
   refused({"--save-field", "a.field", "--guiding", "none"});
   refused({"--field", "a.field", "--guiding", "none"});
   refused({"--compensation", "uniform", "--guiding", "none"}, {"nothing to compensate"});
+  refused({"--integrator", "bidirectional"}, {"bidirectional"});
+  refused({"--allocation", "convex"}, {"--integrator direct"});
+  refused({"--integrator", "direct", "--allocation", "convx"}, {"did you mean 'convex'?"});
+  refused({"--integrator", "direct", "--allocation", "fixed:1"}, {"between 0 and 1"});
+  refused({"--integrator", "direct", "--allocation", "convex:0.3"}, {"only fixed takes a share"});
+  refused({"--integrator", "direct", "--direct-samples", "1"}, {"samples must lie in [2, 4096]"});
+  refused({"--integrator", "direct", "--mis", "best"}, {"best"});
+  refused({"--integrator", "direct", "--mis", "optimalDirect", "--allocation", "convex"}, {"same counts"});
+  refused({"--integrator", "direct", "--mis", "optimal", "--heuristic", "power"}, {"leave it at balance"});
+  refused({"--integrator", "direct", "--mis", "optimal", "--nee", "off"}, {"light sampling"});
+  refused({"--integrator", "direct", "--guiding", "recommended"}, {"takes no guide"});
+  refused({"--integrator", "direct", "--save-field", "a.field"}, {"no field to save"});
   refused({"--no-such-option"}, {"--no-such-option"});
   refused({"another.json"}, {"another.json"});
   checkRefused(space, {}, {});

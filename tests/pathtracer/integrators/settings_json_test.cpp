@@ -41,6 +41,34 @@ TEST_CASE("what a settings file leaves out is as in its preset", "[settings]") {
   CHECK(settings.field.compensation.form == guiding::CompensationForm::WaterFilling);
 }
 
+TEST_CASE("settings of the direct integrator survive the way through JSON", "[settings]") {
+  pt::DirectSettings settings;
+  settings.allocation = pt::Allocation::ConvexControl;
+  settings.estimator = pt::DirectEstimator::Optimal;
+  settings.samples = 32;
+  settings.share = 0.25;
+  settings.pilot = 3;
+  settings.limits = {0.1, 2};
+  const ordered_json json = pt::toJson(settings);
+  CHECK(pt::toJson(pt::directSettingsFromJson(json, "d.json")) == json);
+  CHECK(json["allocation"] == "convexControl");
+  CHECK(json["mis"] == "optimal");
+  CHECK(json["minimumShare"] == 0.1);
+
+  using Catch::Matchers::Contains;
+  const auto errorOf = [](const char* text) {
+    try {
+      pt::directSettingsFromJson(ordered_json::parse(text), "d.json", "/direct");
+    } catch (const pt::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  CHECK_THAT(errorOf(R"({"sample": 8})"), Contains("d.json#/direct: unknown key 'sample'; did you mean 'samples'?"));
+  CHECK_THAT(errorOf(R"({"mis": "optimum"})"), Contains("d.json#/direct/mis: 'optimum' is no choice here"));
+  CHECK_THAT(errorOf(R"({"samples": 1})"), Contains("d.json#/direct: samples must lie in [2, 4096]"));
+}
+
 TEST_CASE("broken settings are named with their place", "[settings]") {
   using Catch::Matchers::Contains;
   CHECK_THAT(errorOf(R"([])"), Contains("g.json#: expected an object"));

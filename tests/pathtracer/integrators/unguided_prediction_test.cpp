@@ -31,10 +31,10 @@ SecondMoments secondMoments(const pt::Scene& scene, const pt::RenderSettings& se
   for (std::uint32_t path = 0; path < 400'000; ++path) {
     sampler.startPath(0, 0, path);
     const pt::Ray ray = scene.camera().generateRay(pt::Vec2(4, 4), pt::Vec2(0, 0));
-    guidedLoop->trace(ray, sampler, worker);
+    guidedLoop->trace(ray, 4, 4, sampler, worker);
     moments.predicted.add(worker.unguidedSquare);
     sampler.startPath(1, 0, path);
-    const double unguided = pt::luminance(unguidedLoop->trace(ray, sampler, worker));
+    const double unguided = pt::luminance(unguidedLoop->trace(ray, 4, 4, sampler, worker));
     moments.unguided.add(unguided * unguided);
     moments.unguidedAndATenth.add(1.1 * unguided * unguided);
     REQUIRE(worker.unguidedSquare == Approx(unguided * unguided).epsilon(1e-4));
