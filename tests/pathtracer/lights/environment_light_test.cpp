@@ -82,8 +82,9 @@ TEST_CASE("A sample of an environment map carries the radiance and the density o
     REQUIRE(s.pdf == scene.pdfEnvironment(s.wi));
     REQUIRE(s.radiance == scene.environment()->radianceFrom(s.wi));
     REQUIRE(std::isinf(s.distance));
-    const Spectrum expected = 3.0f * sky(s.wi * test::skewed().transposed());
-    if (expected.z < 10) REQUIRE(s.radiance.z == Approx(expected.z).epsilon(0.2));  // outside of the sun
+    const Vec3 onMap = s.wi * test::skewed().transposed();
+    if (onMap.dot(Vec3(0.6f, 0.64f, 0.48f)) > 0.9f) continue;  // a texel is too coarse for the sun's rim
+    REQUIRE(s.radiance.z == Approx(3 * sky(onMap).z).epsilon(0.2));
   }
 }
 
