@@ -188,7 +188,11 @@ auto GuidedPathLoop<Guides>::sampleDirect(const PathState& path, const SurfaceIn
   ++counters.shadowRays;
   if (!m_scene.visible(si, light)) return {};
   Spectrum unweighted = f.bsdfCos * light.radiance * (1 / light.pdf);
-  if (m_hasMedia) unweighted *= path.media.transmittance(light.distance);
+  if (m_hasMedia) {
+    MediumStack media = path.media;  // the light's side of the surface
+    media.pass(si, light.wi);
+    unweighted *= media.transmittance(light.distance);
+  }
   if (light.isDelta) return {unweighted, unweighted};
   return {unweighted * misWeight(light.pdf, guiding::mixturePdf(guide, f.pdf, light.wi)),
           unweighted * misWeight(light.pdf, f.pdf)};
