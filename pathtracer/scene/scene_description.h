@@ -258,6 +258,20 @@ struct EnvironmentMap {
   Matrix4 toWorld;  ///< a rotation, perhaps mirrored or scaled
   float scale = 1;  ///< of the radiance
 };
+/// How the density by which light sampling goes is sharpened where it is weighted against BSDF sampling.
+enum class EnvironmentForm {
+  Plain,         ///< not at all
+  Mean,          ///< the mean is subtracted: guiding::EnvironmentCompensation::SubtractMean
+  WaterFilling,  ///< guiding::EnvironmentCompensation::WaterFilling
+  Normal,  ///< an amount by the normal is subtracted, the rest multiplied by the cosine: guiding::EnvironmentByNormal
+};
+struct EnvironmentSampling {
+  EnvironmentForm form = EnvironmentForm::Normal;
+  /// Share of light samples that is assumed, in (0, 1); 0: what the path tracer does, one sample of one light, chosen
+  /// by power, beside one of the BSDF.
+  float lightShare = 0;
+};
+
 struct LightDescription {
   std::variant<PointLight, SpotLight, DirectionalLight, ConstantEnvironment, EnvironmentMap> kind;
   SourceLocation source;
@@ -315,6 +329,7 @@ struct SceneDescription {
   std::vector<ShapeDescription> shapes;
   std::vector<GroupDescription> groups;
   std::vector<LightDescription> lights;
+  EnvironmentSampling environmentSampling;
   std::vector<std::string> skipped;  ///< what --skip-unsupported left out, with its place
   std::vector<std::string> notes;    ///< choices the loader made that its user should know
 };

@@ -67,6 +67,38 @@ TEST_CASE("guiding presets and compensation are what was asked for", "[cli]") {
   CHECK(guiding({"--guiding", "g.json", "--compensation", "none"})["field"]["compensation"]["form"] == "none");
 }
 
+TEST_CASE("the environment's sampling is what was asked for", "[cli]") {
+  const Workspace space;
+  space.write("wall.json", kScene);
+  space.write("sky.json",
+              R"({"width": 32, "zenith": 1, "lamps": [{"direction": [0, 1, 1], "degrees": 20, "radiance": 50}]})");
+  const auto sampling = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"render", "wall.json", "--environment-map", "sky.json",
+                                       "--spp",  "2",         "--report",          "r.json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = space.run(arguments);
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const json report = json::parse(space.read("r.json"));
+    CHECK_THAT(report["scene"]["present"].dump(), Contains("environment map"));
+    return report["scene"]["environmentSampling"];
+  };
+  CHECK(sampling({}) == json{{"form", "mean"}, {"lightShare", "automatic"}});
+  for (const char* form : {"plain", "mean", "waterfill", "normal"})
+    CHECK(sampling({"--environment", form})["form"] == form);
+  CHECK(sampling({"--environment", "mean:0.25"})["lightShare"] == 0.25);
+  for (const char* heuristic : {"balance", "power", "cutoff", "maximum"})
+    CHECK(space.run({"render", "wall.json", "--spp", "2", "--heuristic", heuristic}).status == 0);
+  const auto complaint = [&](const std::string& text) {
+    const Outcome outcome = space.run({"render", "wall.json", "--environment", text});
+    CHECK(outcome.status == 2);
+    return outcome.err;
+  };
+  CHECK_THAT(complaint("means"), Contains("--environment means: no such form; did you mean 'mean'?"));
+  CHECK_THAT(complaint("mean:2"), Contains("the share must lie between 0 and 1"));
+  CHECK_THAT(space.run({"render", "wall.json", "--environment-map", "no.exr"}).err, Contains("no.exr"));
+}
+
 TEST_CASE("a picture is the same on any number of threads, and another for another seed", "[cli]") {
   const Workspace space;
   space.write("wall.json", kScene);
