@@ -142,7 +142,9 @@ std::string presetHelp() {
 }  // namespace
 
 void addOptions(CLI::App& command, SceneOptions& options) {
-  command.add_option("scene", options.file, "Scene file: scene.json, or Mitsuba XML (0.5 to 3)")->required();
+  command
+      .add_option("scene", options.file, "Scene file: scene.json, Mitsuba XML (0.5 to 3), or glTF 2.0 (.gltf, .glb)")
+      ->required();
   command.add_option("--resolution", options.resolution, "Size of the picture, such as 640x360 (default: the scene's)");
   command.add_option(
       "--environment-map", options.environmentMap,

@@ -55,6 +55,8 @@ enum class TextureWrap { Repeat, Mirror, Clamp, Black };
 
 struct BitmapTexture {
   std::filesystem::path file;
+  std::shared_ptr<const std::string> bytes =
+      nullptr;  ///< of the picture, where it lies within another file; `file` is its name
   TextureEncoding encoding = TextureEncoding::Srgb;
   TextureChannel channel = TextureChannel::Color;
   TextureFilter filter = TextureFilter::Bilinear;
@@ -127,6 +129,7 @@ struct NullMaterial {};
 struct MaskMaterial {
   int material = kNone;
   FloatParameter opacity{0.5f};
+  std::optional<float> cutoff = std::nullopt;  ///< opacities below it count as 0, the others as 1
 };
 
 /// The first material's share is 1 - weight.

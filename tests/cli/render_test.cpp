@@ -169,3 +169,24 @@ TEST_CASE("train, info and render --field belong together", "[cli]") {
   REQUIRE(space.run({"render", "wall.json", "--spp", "30", "--save-field", "s.field"}).status == 0);
   CHECK(space.run({"info", "s.field"}).status == 0);
 }
+
+TEST_CASE("a glTF file without camera and light renders, and what was added is said", "[cli]") {
+  const Workspace space;
+  // One triangle: (0,0,0), (1,0,0), (0,1,0).
+  space.write("model.gltf",
+              R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0,0,0], "max": [1,1,0]}]})");
+  const Outcome outcome = space.run({"render", "model.gltf", "--spp", "4", "--resolution", "16x16"});
+  INFO(outcome.err);
+  CHECK(outcome.status == 0);
+  CHECK(space.has("model.exr"));
+  CHECK_THAT(outcome.err, Contains("note: model.gltf: has no camera") && Contains("note: model.gltf: has no light"));
+  CHECK_THAT(space.run({"info", "model.gltf"}).out, Contains("1 triangles"));
+  space.write("broken.glb", "glTF");
+  const Outcome broken = space.run({"render", "broken.glb"});
+  CHECK(broken.status == 2);
+  CHECK_THAT(broken.err, Contains("broken.glb: is no glTF binary"));
+}
