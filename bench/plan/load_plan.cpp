@@ -63,6 +63,10 @@ std::optional<pt::GuidingSettings> readGuiding(const Json& json, const JsonPlace
 void readSettings(JsonObject& object, Variant& variant) {
   variant.nee = object.boolean("nee", true);
   variant.heuristic = choice(object, "heuristic", pt::MisHeuristic::Balance);
+  if (const Json* roulette = object.find("roulette")) {
+    const JsonPlace place = object.placeOf("roulette");
+    variant.roulette = pt::rouletteSettingsFromJson(*roulette, place.file, place.pointer);
+  }
   variant.sampler = choice(object, "sampler", pt::SamplerKind::Independent);
   if (const Json* direct = object.find("direct")) {
     const JsonPlace place = object.placeOf("direct");

@@ -21,6 +21,7 @@ struct Variant {
   std::string note;  ///< shown in the report
   bool nee = true;
   pt::MisHeuristic heuristic = pt::MisHeuristic::Balance;
+  pt::RouletteSettings roulette;
   pt::SamplerKind sampler = pt::SamplerKind::Independent;
   std::optional<pt::DirectSettings> direct;    ///< none: the path tracer
   std::optional<pt::GuidingSettings> guiding;  ///< none: unguided

@@ -38,7 +38,7 @@ struct SamplingOptions {
   std::string guiding;       ///< preset or settings file; empty: as the integrator wants it
   std::string compensation;  ///< empty: as `guiding` says
   std::filesystem::path field;
-  std::string nee = "on", heuristic = "balance", sampler;
+  std::string nee = "on", heuristic = "balance", roulette = "classic", sampler;
   int threads = 0;
   std::uint64_t seed = 0;
 };
