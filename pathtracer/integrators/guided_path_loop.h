@@ -29,9 +29,9 @@ class GuidedPathLoop final : public PathLoop {
       : m_scene(scene),
         m_guides(std::move(guides)),
         m_settings(settings.path),
-        m_nee(settings.nee && scene.features().hasSampleableLights),
+        m_nee(settings.nee && scene.features().hasLightsToWeigh),
         m_hasMedia(scene.features().hasMedia),
-        m_powerHeuristic(settings.heuristic == MisHeuristic::Power) {}
+        m_heuristic(settings.heuristic) {}
 
   Spectrum trace(Ray ray, int x, int y, Sampler& sampler, PathWorker& worker) const noexcept override;
 
@@ -66,7 +66,7 @@ class GuidedPathLoop final : public PathLoop {
   IntegratorDescription m_settings;
   bool m_nee;
   bool m_hasMedia;
-  bool m_powerHeuristic;
+  MisHeuristic m_heuristic;
 };
 
 template <GuideSource Guides>
@@ -161,7 +161,7 @@ auto GuidedPathLoop<Guides>::emission(const PathState& path, const Ray& ray,
     emitted = environment->radianceFrom(ray.direction);
   }
   if (path.isDelta || !m_nee || isBlack(emitted)) return {emitted};
-  return {emitted, hit ? m_scene.pdfDirect(path.previous, *hit) : m_scene.pdfEnvironment(ray.direction)};
+  return {emitted, hit ? m_scene.pdfDirect(path.previous, *hit) : m_scene.pdfEnvironment(path.previous, ray.direction)};
 }
 
 template <GuideSource Guides>
@@ -209,7 +209,7 @@ auto GuidedPathLoop<Guides>::sampleDirect(const PathState& path, const SurfaceIn
                                           const Distribution& guide, Sampler& sampler,
                                           PathWorker& worker) const noexcept -> DirectLight {
   const float uLight = sampler.next1D();
-  const DirectSample light = m_scene.sampleDirect(si.p, uLight, sampler.next2D());
+  const DirectSample light = m_scene.sampleDirect(m_scene.receiver(si), uLight, sampler.next2D());
   if (!(light.pdf > 0) || isBlack(light.radiance)) return {};
   const BsdfEvaluation f = bsdf.evaluate(light.wi);
   if (isBlack(f.bsdfCos)) return {};
@@ -217,7 +217,11 @@ auto GuidedPathLoop<Guides>::sampleDirect(const PathState& path, const SurfaceIn
   if (worker.reflections) worker.reflectionRecorder.addCost(RouletteCost::kShadowRay);
   if (!m_scene.visible(si, light)) return {};
   Spectrum unweighted = f.bsdfCos * light.radiance * (1 / light.pdf);
-  if (m_hasMedia) unweighted *= path.media.transmittance(light.distance);
+  if (m_hasMedia) {
+    MediumStack media = path.media;  // the light's side of the surface
+    media.pass(si, light.wi);
+    unweighted *= media.transmittance(light.distance);
+  }
   if (light.isDelta) return {unweighted, unweighted};
   return {unweighted * misWeight(light.pdf, guiding::mixturePdf(guide, f.pdf, light.wi)),
           unweighted * misWeight(light.pdf, f.pdf)};
@@ -239,7 +243,7 @@ bool GuidedPathLoop<Guides>::scatter(PathState& path, const SurfaceInteraction& 
   path.throughput *= draw.weight;
   path.unguidedThroughput *= draw.bsdfPdf > 0 ? draw.weight * (draw.pdf / draw.bsdfPdf) : draw.weight;
   path.eta *= bsdf.etaCrossed(draw.wi);
-  path.previous = si.p;
+  path.previous = m_scene.receiver(si);
   path.pdf = draw.pdf;
   path.bsdfPdf = draw.bsdfPdf;
   path.isDelta = draw.isDelta;
@@ -254,8 +258,7 @@ bool GuidedPathLoop<Guides>::scatter(PathState& path, const SurfaceInteraction& 
 template <GuideSource Guides>
 float GuidedPathLoop<Guides>::misWeight(float pdf, float otherPdf) const noexcept {
   if (!(otherPdf > 0)) return 1;
-  return m_powerHeuristic ? guiding::powerHeuristic(1, pdf, 1, otherPdf)
-                          : guiding::balanceHeuristic(1, pdf, 1, otherPdf);
+  return guiding::misWeight(m_heuristic, pdf, otherPdf);
 }
 
 }  // namespace pt

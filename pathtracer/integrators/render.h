@@ -1,6 +1,7 @@
 #pragma once
 
 #include <guiding/field.h>
+#include <guiding/mis.h>
 #include <guiding/schedule.h>
 #include <guiding/settings.h>
 
@@ -17,7 +18,7 @@
 
 namespace pt {
 
-enum class MisHeuristic { Balance, Power };
+using guiding::MisHeuristic;
 
 /// Russian roulette and splitting.
 enum class RouletteMethod {
@@ -59,7 +60,7 @@ struct RenderSettings {
   double seconds = 0;
 
   bool nee = true;
-  MisHeuristic heuristic = MisHeuristic::Balance;
+  MisHeuristic heuristic = MisHeuristic::Balance;  ///< between light sampling and scattering
   RouletteSettings roulette;
   AovSelection aovs;
 

@@ -132,6 +132,25 @@ TEST_CASE("in a medium, guided and unguided renders agree", "[integrators]") {
   CHECK_FALSE(zTest(plain, plain.mean() * 1.1, 0.001));
 }
 
+TEST_CASE("light sampled through a rough boundary is absorbed on its own side of it", "[integrators]") {
+  pt::SceneDescription description = viewFromAbove();
+  description.lights.push_back({pt::ConstantEnvironment{pt::Spectrum(1.0f)}, "test"});
+  const int glass = addMedium(description, 1.3f, pt::Spectrum(0.3f, 0.6f, 1.0f));
+  pt::Roughness roughness;
+  roughness.alpha = 0.4f;
+  std::get<pt::DielectricMaterial>(description.materials[std::size_t(glass)].kind).roughness = roughness;
+  addSphere(description, 1, glass);
+  const pt::Scene scene(description);
+  pt::RenderSettings settings = settingsFor(description, 256);
+  const RunningMean sampled = meanOfRuns(scene, settings, 30);
+  settings.nee = false;
+  const RunningMean found = meanOfRuns(scene, settings, 30);
+  const ZResult agrees = zTest(sampled, found, 0.001);
+  INFO(agrees.message);
+  CHECK(agrees);
+  CHECK_FALSE(zTest(sampled, found.mean() * 1.02, 0.001));
+}
+
 TEST_CASE("a medium needs a surface that lets light through", "[integrators]") {
   pt::SceneDescription description = floor();
   description.materials[0].absorption = pt::Spectrum(1.0f);
