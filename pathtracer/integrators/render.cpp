@@ -130,7 +130,7 @@ void RenderRun::renderIteration(const guiding::IterationPlan& plan) {
   m_film.clear();
   m_sppOfIteration = 0;
   m_passOfIteration = 0;
-  if (m_roulette) m_roulette->beginIteration();
+  if (m_roulette) m_roulette->beginIteration(m_schedule && m_schedule->awaitsTrial());
   do {
     const double passStart = m_clock.seconds();
     const std::int64_t count = sppOfNextPass(plan);

@@ -44,7 +44,8 @@ RouletteTraining::RouletteTraining(const RouletteSettings& settings, int rrDepth
       m_statistics(createStatistics(sceneBounds)),
       m_filmBefore(width, height) {}
 
-void RouletteTraining::beginIteration() {
+void RouletteTraining::beginIteration(bool classicOnly) {
+  m_classicOnly = classicOnly;
   m_windowSpp = 0;
   m_filmBefore.clear();
 }
@@ -55,7 +56,7 @@ std::int64_t RouletteTraining::planSamples(std::int64_t left, bool isLast) {
 }
 
 void RouletteTraining::beginWindow(std::int64_t left, bool isLast) {
-  if (m_phase == Phase::Watching && m_sppSeen >= kSppBeforeTrial) {
+  if (m_phase == Phase::Watching && !m_classicOnly && m_sppSeen >= kSppBeforeTrial) {
     if (!m_settings.trial)
       m_phase = Phase::Learned;
     else if (left >= 2 * kSppOfTrial)

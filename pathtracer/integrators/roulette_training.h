@@ -14,14 +14,15 @@ namespace pt {
 /// be more efficient than classic roulette, or the rest of the render is played classically.
 ///
 /// Samples are rendered in windows, doubling as the render goes on, within one iteration of the guide each: first
-/// classic ones; then the trial, two windows of equally many samples side by side; then with what was learned.
+/// classic ones; then the trial, two windows of equally many samples side by side; then with what was learned. Guiding
+/// stands its own trial before: what guided samples predict for unguided ones holds only if both are played alike.
 class RouletteTraining {
  public:
   /// Throws InputError if the scene's box is empty or not finite.
   RouletteTraining(const RouletteSettings& settings, int rrDepth, const Box3& sceneBounds, int width, int height);
 
-  /// An iteration begins, with an empty film.
-  void beginIteration();
+  /// An iteration begins, with an empty film. `classicOnly`: it is to be played classically whatever was learned.
+  void beginIteration(bool classicOnly);
 
   /// How many of the `left` samples per pixel of this iteration are to be rendered next at most: no more than the
   /// window under way has left. A new window begins where none is. `isLast`: no iteration follows.
@@ -54,6 +55,7 @@ class RouletteTraining {
   std::int64_t m_sppSeen = 0;     ///< in windows that are over
   std::int64_t m_windowSpp = 0;   ///< of the window under way; 0: none is
   std::int64_t m_windowDone = 0;  ///< of those
+  bool m_classicOnly = false;     ///< the iteration under way
   bool m_isRecorded = false;
   Film m_filmBefore;  ///< of this iteration, when the window began
   RenderCounters m_countersBefore;
