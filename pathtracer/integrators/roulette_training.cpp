@@ -1,6 +1,7 @@
 #include "integrators/roulette_training.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/error.h"
 #include "integrators/pixel_estimate.h"
@@ -9,10 +10,13 @@ namespace pt {
 
 namespace {
 
-/// Samples per pixel of classic roulette before the trial: with fewer the picture is too rough to go by.
-constexpr std::int64_t kSppBeforeTrial = 7;
-/// Of each half of the trial.
-constexpr std::int64_t kSppOfTrial = 4;
+/// Few samples tell little of heavy-tailed light: a method that seems not to pay is tried again with more.
+struct Trial {
+  std::int64_t sppBefore;  ///< samples per pixel before it
+  std::int64_t spp;        ///< of each of its halves
+};
+constexpr Trial kTrials[] = {{7, 8}, {31, 16}, {127, 32}};
+constexpr std::size_t kMostTrials = std::size(kTrials);
 /// Samples that tell all that matters.
 constexpr std::uint64_t kEnoughSamples = 1 << 22;
 constexpr int kSmoothing = 1;
@@ -56,14 +60,16 @@ std::int64_t RouletteTraining::planSamples(std::int64_t left, bool isLast) {
 }
 
 void RouletteTraining::beginWindow(std::int64_t left, bool isLast) {
-  if (m_phase == Phase::Watching && !m_classicOnly && m_sppSeen >= kSppBeforeTrial) {
+  const Trial& trial = kTrials[std::min(m_trialsLost, kMostTrials - 1)];
+  if (m_phase == Phase::Watching && !m_classicOnly && m_sppSeen >= trial.sppBefore) {
     if (!m_settings.trial)
       m_phase = Phase::Learned;
-    else if (left >= 2 * kSppOfTrial)
+    else if (left >= 4 * trial.spp)
       m_phase = Phase::TrialOfClassic;
   }
   const bool isTrial = m_phase == Phase::TrialOfClassic || m_phase == Phase::TrialOfLearned;
-  const std::int64_t spp = isTrial ? kSppOfTrial : m_sppSeen + 1;
+  std::int64_t spp = isTrial ? trial.spp : m_sppSeen + 1;
+  if (m_phase == Phase::Watching && m_sppSeen < trial.sppBefore) spp = std::min(spp, trial.sppBefore - m_sppSeen);
   // No short window at the end; and nothing more to learn once the trial was lost.
   const bool takesAll = m_phase == Phase::Classic || (!isTrial && left < 2 * spp);
   m_windowSpp = takesAll ? left : spp;
@@ -108,7 +114,10 @@ void RouletteTraining::judge(double relativeVariance, double cost) {
     m_classicInefficiency = relativeVariance * cost;
     m_phase = Phase::TrialOfLearned;
   } else if (m_phase == Phase::TrialOfLearned) {
-    m_phase = relativeVariance * cost < kMostInefficiency * m_classicInefficiency ? Phase::Learned : Phase::Classic;
+    if (relativeVariance * cost < kMostInefficiency * m_classicInefficiency)
+      m_phase = Phase::Learned;
+    else
+      m_phase = ++m_trialsLost < kMostTrials ? Phase::Watching : Phase::Classic;
   }
 }
 

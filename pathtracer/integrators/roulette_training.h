@@ -11,7 +11,8 @@
 namespace pt {
 
 /// Learns while a render goes on what adjoint-driven and efficiency-aware roulette go by, and puts it on trial: it must
-/// be more efficient than classic roulette, or the rest of the render is played classically.
+/// be more efficient than classic roulette. A trial that is lost is repeated twice, with more samples each time; then
+/// the rest of the render is played classically.
 ///
 /// Samples are rendered in windows, doubling as the render goes on, within one iteration of the guide each: first
 /// classic ones; then the trial, two windows of equally many samples side by side; then with what was learned. Guiding
@@ -57,6 +58,7 @@ class RouletteTraining {
   std::int64_t m_windowDone = 0;  ///< of those
   bool m_classicOnly = false;     ///< the iteration under way
   bool m_isRecorded = false;
+  std::size_t m_trialsLost = 0;
   Film m_filmBefore;  ///< of this iteration, when the window began
   RenderCounters m_countersBefore;
   double m_classicInefficiency = 0;  ///< in the trial: variance times cost
