@@ -63,6 +63,10 @@ std::optional<pt::GuidingSettings> readGuiding(const Json& json, const JsonPlace
 void readSettings(JsonObject& object, Variant& variant) {
   variant.nee = object.boolean("nee", true);
   variant.heuristic = choice(object, "heuristic", pt::MisHeuristic::Balance);
+  if (const Json* roulette = object.find("roulette")) {
+    const JsonPlace place = object.placeOf("roulette");
+    variant.roulette = pt::rouletteSettingsFromJson(*roulette, place.file, place.pointer);
+  }
   variant.environment.form = choice(object, "environment", variant.environment.form);
   variant.environment.lightShare = float(object.number("lightShare", 0.01, 0.99, 0));
   variant.sampler = choice(object, "sampler", pt::SamplerKind::Independent);

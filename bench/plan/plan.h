@@ -21,6 +21,7 @@ struct Variant {
   std::string note;  ///< shown in the report
   bool nee = true;
   pt::MisHeuristic heuristic = pt::MisHeuristic::Balance;
+  pt::RouletteSettings roulette;
   pt::EnvironmentSampling environment;
   pt::SamplerKind sampler = pt::SamplerKind::Independent;
   std::optional<pt::DirectSettings> direct;    ///< none: the path tracer

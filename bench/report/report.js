@@ -205,7 +205,7 @@ function comparisonTable(scene, key) {
 
 function costTable(scene) {
   const headings = ['variant', 'seeds', 'spp', 'seconds', 'training s', 'CPU s', 'M rays', 'guided', 'memory MB', 'field MB',
-                    'relMSE × s', `s to ${data.plan.baseline}’s error`, 'bias of the mean'];
+                    'relMSE × CPU s', `s to ${data.plan.baseline}’s error`, 'bias of the mean'];
   const rows = scene.variants.map(variant => {
     const m = variant.means;
     const cells = [String(variant.seeds), format(m.spp), format(m.seconds), format(m.trainSeconds), format(m.cpuSeconds),

@@ -48,9 +48,9 @@ std::vector<Interval> curveOf(const VariantResult& variant, const std::vector<do
   return curve;
 }
 
-Interval inefficiencyOf(const VariantResult& variant) {
+Interval inefficiencyOf(const VariantResult& variant, double PictureError::*metric) {
   Errors products;
-  for (const CellResult& cell : variant.cells) products.push_back(cell.curve.back().error.relMse * cell.seconds);
+  for (const CellResult& cell : variant.cells) products.push_back(cell.curve.back().error.*metric * cell.cpuSeconds);
   return products.empty() ? Interval{kNaN, kNaN, kNaN} : meanInterval(products);
 }
 
@@ -107,7 +107,8 @@ void aggregateScene(const Plan& plan, const ScenePlan& scenePlan, SceneResult& s
     variant.atEqualSpp = compareAt(variant, baseline, &CurvePoint::spp, scene.equalSpp);
     variant.curve = curveOf(variant, scene.grid, &PictureError::relMse);
     variant.trimmedCurve = curveOf(variant, scene.grid, &PictureError::relMseTrimmed);
-    variant.inefficiency = inefficiencyOf(variant);
+    variant.inefficiency = inefficiencyOf(variant, &PictureError::relMse);
+    variant.trimmedInefficiency = inefficiencyOf(variant, &PictureError::relMseTrimmed);
     variant.bias = biasOf(variant);
   }
   if (baseline && baseline->atEqualTime.contains("relMse"))

@@ -25,7 +25,8 @@ struct VariantResult {
   std::vector<CellResult> failures;
   int missing = 0;                                            ///< not run yet
   std::map<std::string, Comparison> atEqualTime, atEqualSpp;  ///< by the metric's key; where every seed has a value
-  Interval inefficiency;                                      ///< relMSE x seconds of the final pictures
+  Interval inefficiency, trimmedInefficiency;  ///< relMSE x CPU seconds of the final pictures, with and without the
+                                               ///< worst 0.1%
   std::vector<Interval> curve;         ///< relMSE over SceneResult::grid; NaN before the first picture of some seed
   std::vector<Interval> trimmedCurve;  ///< relMSE without the worst 0.1%
   /// Seconds to the baseline's relMSE at equal time: where the mean curve comes down to it, and where its band does;

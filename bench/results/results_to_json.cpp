@@ -69,6 +69,7 @@ Json toJson(const VariantResult& variant) {
             {"atEqualTime", toJson(variant.atEqualTime)},
             {"atEqualSpp", toJson(variant.atEqualSpp)},
             {"inefficiency", toJson(variant.inefficiency)},
+            {"trimmedInefficiency", toJson(variant.trimmedInefficiency)},
             {"bias", toJson(variant.bias)},
             {"secondsToBaseline",
              {toJson(variant.secondsToBaseline), toJson(variant.secondsToBaselineLow),

@@ -35,6 +35,7 @@ pt::RenderSettings settingsFor(const pt::SceneDescription& scene, const Variant&
   settings.nee = variant.nee;
   settings.heuristic = variant.heuristic;
   settings.direct = variant.direct;
+  settings.roulette = variant.roulette;
   settings.guiding = variant.guiding;
   return settings;
 }

@@ -24,30 +24,27 @@ void PathRecorder::finish(SampleBuffer& out) noexcept {
     return;
   }
   // Radiance that arrives along a vertex' ray: what its end emits, plus what its end scatters on, divided by the chance
-  // that the path was allowed to find that out. From the end of the path to its start [Müller et al. 2017, Sec. 3,
-  // without their division].
-  Imath::V3f scattered(0, 0, 0);
+  // (or the number of branches) with which the path was allowed to find that out. From the ends of the path to its
+  // start [Müller et al. 2017, Sec. 3, without their division].
   for (std::size_t i = m_vertices.size(); i-- > 0;) {
     Vertex& v = m_vertices[i];
-    const Imath::V3f incident = v.emission + (v.direct + scattered) * v.inverseSurvival;
-    v.radiance = mean(incident);
-    v.product = mean(v.event.bsdfCos * incident);
-    scattered = v.event.weight * incident;
+    v.incident += v.scattered * v.inverseFactor;
+    if (v.parent != kRoot) m_vertices[v.parent].scattered += v.event.weight * v.incident;
   }
   for (const Vertex& v : m_vertices) {
     if (v.event.isDelta) continue;
     RadianceSample sample;
     sample.position = v.event.position;
     sample.direction = v.event.wi;
-    sample.radiance = v.radiance;
-    sample.product = v.product;
+    sample.radiance = mean(v.incident);
+    sample.product = mean(v.event.bsdfCos * v.incident);
     sample.pdf = v.event.pdf;
     sample.bsdfPdf = v.event.bsdfPdf;
     sample.guidePdf = v.event.guidePdf;
     sample.distance = v.distance < 0 ? std::numeric_limits<float>::infinity() : v.distance;
     out.add(sample);
   }
-  m_vertices.clear();
+  begin();
 }
 
 }  // namespace guiding

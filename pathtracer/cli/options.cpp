@@ -52,6 +52,23 @@ guiding::CompensationSettings parseCompensation(const std::string& text) {
   return settings;
 }
 
+/// "method" or "method:maxSplits".
+RouletteSettings parseRoulette(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const auto* method = valueOfLabel<RouletteMethod>(std::string_view(text).substr(0, colon));
+  if (!method)
+    throw InputError(fmt::format("--roulette {}: no such method{}", text,
+                                 suggestName(text.substr(0, colon), labelsOf<RouletteMethod>())));
+  RouletteSettings settings{.method = *method};
+  if (colon == std::string::npos) return settings;
+  const auto maxSplits = parseNumber<float>(std::string_view(text).substr(colon + 1));
+  if (!maxSplits || *method == RouletteMethod::Classic || !(*maxSplits >= 1 && *maxSplits <= 100))
+    throw InputError(
+        fmt::format("--roulette {}: adjoint and ears take the most branches, from 1 to 100, as in ears:4", text));
+  settings.maxSplits = *maxSplits;
+  return settings;
+}
+
 /// "form" or "form:share".
 EnvironmentSampling parseEnvironment(const std::string& text) {
   const std::size_t colon = text.find(':');
@@ -186,6 +203,12 @@ void addOptions(CLI::App& command, SamplingOptions& options) {
   command.add_option("--environment", options.environment,
                      "How light sampling of an environment map is sharpened against scattering: plain, mean, waterfill "
                      "or normal, with an optional share of light samples as in mean:0.5 (default: mean)");
+  command
+      .add_option("--roulette", options.roulette,
+                  "Russian roulette and splitting: classic, adjoint (by expected contribution) or ears (by expected "
+                  "variance and cost), the latter two with an optional limit to splitting as in ears:4; they learn "
+                  "while rendering, and end where they do not pay")
+      ->capture_default_str();
   command.add_option("--sampler", options.sampler, "Random numbers: independent or sobol (default: the scene's)")
       ->check(memberOf<SamplerKind>());
   command.add_option("--threads", options.threads, "Number of threads; 0: all that the machine has")
@@ -277,6 +300,7 @@ RenderSettings renderSettings(const SamplingOptions& options, const SceneDescrip
   settings.nee = options.nee == "on";
   settings.heuristic = *valueOfLabel<MisHeuristic>(options.heuristic);
   settings.direct = directSettings(options.integrator);
+  settings.roulette = parseRoulette(options.roulette);
   settings.guiding = guidingSettings(options);
   if (!options.field.empty() && !settings.guiding)
     throw InputError(

@@ -40,6 +40,9 @@ Json toJson(const RenderCounters& counters) {
           {"scatterings", counters.scatterings},
           {"guidedScatterings", counters.guidedScatterings},
           {"guidedShare", share},
+          {"splits", counters.splits},
+          {"branches", counters.branches},
+          {"cappedSplits", counters.cappedSplits},
           {"rejectedSamples", counters.rejectedSamples}};
 }
 
@@ -84,6 +87,7 @@ nlohmann::ordered_json toJson(const RenderSettings& settings) {
           {"nee", settings.nee},
           {"heuristic", labelOf(settings.heuristic)},
           {"direct", settings.direct ? toJson(*settings.direct) : Json()},
+          {"roulette", toJson(settings.roulette)},
           {"guiding", settings.guiding ? toJson(*settings.guiding) : Json()},
           {"learnFinal", settings.learnFinal}};
 }

@@ -50,6 +50,20 @@ void Film::clear() {
   std::fill(m_pixels.begin(), m_pixels.end(), Pixel{});
 }
 
+Film Film::since(const Film& earlier) const {
+  Film later = *this;
+  for (std::size_t i = 0; i < m_pixels.size(); ++i) {
+    Pixel& p = later.m_pixels[i];
+    const Pixel& before = earlier.m_pixels[i];
+    for (int c = 0; c < 3; ++c) p.sum[c] -= before.sum[c];
+    p.luminance2 -= before.luminance2;
+    p.unguided2 -= before.unguided2;
+    p.count -= before.count;
+    p.rejected -= before.rejected;
+  }
+  return later;
+}
+
 Image Film::mean() const {
   Image image(m_width, m_height);
   for (std::size_t i = 0; i < m_pixels.size(); ++i) {

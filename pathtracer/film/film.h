@@ -40,6 +40,8 @@ class Film {
   }
 
   void clear();
+  /// What was added after `earlier`, a copy of this film as it once was.
+  Film since(const Film& earlier) const;
   Image mean() const;
   /// Mean over pixels of the unbiased variance of the pixel's mean, luminance; 0 for fewer than 2 samples a pixel.
   double meanVariance() const;

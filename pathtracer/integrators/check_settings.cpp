@@ -44,6 +44,7 @@ void checkDirect(const RenderSettings& settings) {
   const auto fail = [](const std::string& text) { throw InputError("direct: " + text); };
   if (const auto status = settings.direct->validate(); !status) fail(status.error().text);
   if (settings.guiding) fail("this integrator takes no guide; leave guiding out");
+  if (settings.roulette.method != RouletteMethod::Classic) fail("its paths are too short for roulette; leave it classic");
   if (!usesOptimalWeights(settings.direct->estimator)) return;
   if (settings.heuristic != MisHeuristic::Balance)
     fail("optimal weights take the heuristic's place; leave it at balance");
@@ -52,10 +53,19 @@ void checkDirect(const RenderSettings& settings) {
 
 }  // namespace
 
+void checkRoulette(const RouletteSettings& roulette) {
+  if (!(roulette.maxSplits >= 1 && roulette.maxSplits <= 100))
+    throw InputError(fmt::format("roulette: maxSplits {} is impossible: use 1 to 100", roulette.maxSplits));
+  if (!(roulette.window > 1 && std::isfinite(roulette.window)))
+    throw InputError(
+        fmt::format("roulette: window {} is impossible: its ends must have a ratio above 1", roulette.window));
+}
+
 void checkSettings(const RenderSettings& settings) {
   checkResolution(settings.width, settings.height);
   checkBudget(settings);
   checkPath(settings.path);
+  checkRoulette(settings.roulette);
   if (settings.threads < 0) throw InputError(fmt::format("{} threads are impossible: use 0 for all", settings.threads));
   if (settings.direct) checkDirect(settings);
   if (!settings.guiding) return;

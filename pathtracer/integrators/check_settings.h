@@ -7,6 +7,7 @@
 namespace pt {
 
 /// Throws InputError for settings that cannot be rendered with.
+void checkRoulette(const RouletteSettings& roulette);
 void checkSettings(const RenderSettings& settings);
 
 /// Throws InputError if the field was trained in a smaller space than the scene fills.

@@ -3,7 +3,6 @@
 #include <guiding/mis.h>
 #include <guiding/mixture.h>
 
-#include "integrators/medium_stack.h"
 #include "integrators/path_loop.h"
 #include "integrators/surface_bsdf.h"
 #include "scene/scene.h"
@@ -20,7 +19,8 @@ concept GuideSource = requires(const G& guides, const SurfaceInteraction& si, co
   { guides.bind(si, bsdf, sampler, worker) } -> std::same_as<typename G::Distribution>;
 };
 
-/// The path tracer: unidirectional paths with light sampling, guided where `Guides` offers a guide.
+/// The path tracer: unidirectional paths with light sampling, guided where `Guides` offers a guide. Where
+/// roulette splits a path, its branches are traced one after the other.
 template <GuideSource Guides>
 class GuidedPathLoop final : public PathLoop {
  public:
@@ -37,7 +37,6 @@ class GuidedPathLoop final : public PathLoop {
 
  private:
   using Distribution = typename Guides::Distribution;
-  struct PathState;
 
   /// Radiance of a light and the density with which light sampling would have found it; 0: it could not.
   struct Emission {
@@ -50,10 +49,13 @@ class GuidedPathLoop final : public PathLoop {
   };
 
   Emission emission(const PathState& path, const Ray& ray, const SurfaceInteraction* hit) const noexcept;
-  bool survivesRoulette(PathState& path, Sampler& sampler, PathWorker& worker) const noexcept;
   void absorb(PathState& path, float distance) const noexcept;
+  int playRoulette(PathState& path, const SurfaceInteraction& si, Sampler& sampler, PathWorker& worker) const noexcept;
+  bool takeWaiting(PathState& path, SurfaceInteraction& si, PathWorker& worker) const noexcept;
+  bool reflect(PathState& path, const SurfaceInteraction& si, Sampler& sampler, PathWorker& worker,
+               Ray& ray) const noexcept;
   DirectLight sampleDirect(const PathState& path, const SurfaceInteraction& si, const SurfaceBsdf& bsdf,
-                           const Distribution& guide, Sampler& sampler, RenderCounters& counters) const noexcept;
+                           const Distribution& guide, Sampler& sampler, PathWorker& worker) const noexcept;
   bool scatter(PathState& path, const SurfaceInteraction& si, const SurfaceBsdf& bsdf, const Distribution& guide,
                Sampler& sampler, PathWorker& worker, Ray& ray) const noexcept;
   bool pathEnds(const PathState& path, const SurfaceInteraction& si) const noexcept;
@@ -68,29 +70,12 @@ class GuidedPathLoop final : public PathLoop {
 };
 
 template <GuideSource Guides>
-struct GuidedPathLoop<Guides>::PathState {
-  Spectrum radiance{0.0f};
-  Spectrum throughput{1.0f};
-  /// The throughput that BSDF sampling alone would have given this path. Roulette goes by it: a guide makes the
-  /// throughput small exactly where much light is expected, and those paths must live.
-  Spectrum unguidedThroughput{1.0f};
-  Spectrum unguidedRadiance{0.0f};  ///< what BSDF sampling alone would have counted for this path
-  float likelihood = 1;             ///< density of this path under BSDF sampling alone over its density here
-  float eta = 1;                    ///< product of the relative indices of refraction crossed
-  int depth = 1;                    ///< edges from the camera to the current hit
-  LightReceiver previous;           ///< where the path scattered last
-  float pdf = 0;                    ///< mixture density of the ray at `previous`, per solid angle
-  float bsdfPdf = 0;                ///< the BSDF's own
-  bool isDelta = true;  ///< light sampling at `previous` cannot find what the ray met: camera rays and delta scattering
-  MediumStack media;    ///< around the ray
-  Spectrum arriving{1.0f};  ///< share of the light on the ray that they leave
-};
-
-template <GuideSource Guides>
 Spectrum GuidedPathLoop<Guides>::trace(Ray ray, int, int, Sampler& sampler, PathWorker& worker) const noexcept {
   PathState path;
   SurfaceInteraction si;
+  worker.branchesLeft = PathWorker::kMostBranches;
   if (worker.records) worker.recorder.begin();
+  if (worker.reflections) worker.reflectionRecorder.begin();
 
   for (;; ++path.depth) {
     // The nearest surface
@@ -110,30 +95,59 @@ Spectrum GuidedPathLoop<Guides>::trace(Ray ray, int, int, Sampler& sampler, Path
     if constexpr (Guides::kGuides)
       path.unguidedRadiance += path.unguidedThroughput * emitted.radiance * misWeight(path.bsdfPdf, emitted.lightPdf);
     if (worker.records) worker.recorder.addEmission(weighted * path.arriving);
+    if (worker.reflections) worker.reflectionRecorder.add(path.throughput * weighted);
 
-    // The end of the path
-    if (!hit || pathEnds(path, si)) break;
-    if (!survivesRoulette(path, sampler, worker)) break;
+    // The end of the path, or how many branches it goes on in
+    const int branches = hit && !pathEnds(path, si) ? playRoulette(path, si, sampler, worker) : 0;
 
-    // The guide at this point
-    const SurfaceBsdf bsdf(si, m_settings.strictNormals);
-    const bool hasSmooth = si.material->traits().hasSmooth;
-    const auto guide = hasSmooth ? m_guides.bind(si, bsdf, sampler, worker) : Distribution();
-
-    // Direct light
-    if (m_nee && hasSmooth) {
-      const DirectLight direct = sampleDirect(path, si, bsdf, guide, sampler, worker.counters);
-      path.radiance += path.throughput * direct.radiance;
-      if constexpr (Guides::kGuides) path.unguidedRadiance += path.unguidedThroughput * direct.unguided;
-      if (worker.records) worker.recorder.addDirect(direct.radiance * path.arriving);
-    }
-
-    // The next direction
-    if (!scatter(path, si, bsdf, guide, sampler, worker, ray)) break;
+    // Light reflected here; where a branch ends, at the last vertex where others wait
+    bool goesOn = branches > 0 && reflect(path, si, sampler, worker, ray);
+    while (!goesOn && takeWaiting(path, si, worker)) goesOn = reflect(path, si, sampler, worker, ray);
+    if (!goesOn) break;
   }
+  if (worker.reflections) worker.reflectionRecorder.closeTo(0, *worker.reflections);
   const float unguided = luminance(Guides::kGuides ? path.unguidedRadiance : path.radiance);
-  worker.unguidedSquare = unguided * unguided * path.likelihood;
+  worker.unguidedSquare = worker.roulette.isLearned() ? 0 : unguided * unguided * path.likelihood;
   return path.radiance;
+}
+
+/// Makes the last branch that waits the one under way; false if none waits.
+template <GuideSource Guides>
+bool GuidedPathLoop<Guides>::takeWaiting(PathState& path, SurfaceInteraction& si, PathWorker& worker) const noexcept {
+  if (worker.waiting.empty()) return false;
+  WaitingBranches& last = worker.waiting.back();
+  const Spectrum radiance = path.radiance;
+  path = last.path;
+  path.radiance = radiance;
+  si = last.si;
+  if (worker.records) worker.recorder.returnTo(last.place);
+  if (worker.reflections) worker.reflectionRecorder.closeTo(last.openReflections, *worker.reflections);
+  if (--last.count == 0) worker.waiting.pop_back();
+  return true;
+}
+
+/// Samples light and the next direction at the surface point; false: nothing comes from there.
+template <GuideSource Guides>
+bool GuidedPathLoop<Guides>::reflect(PathState& path, const SurfaceInteraction& si, Sampler& sampler,
+                                     PathWorker& worker, Ray& ray) const noexcept {
+  const bool hasSmooth = si.material->traits().hasSmooth;
+  if (worker.reflections && hasSmooth) worker.reflectionRecorder.open(si.p, path.throughput);
+
+  // The guide at this point
+  const SurfaceBsdf bsdf(si, m_settings.strictNormals);
+  const auto guide = hasSmooth ? m_guides.bind(si, bsdf, sampler, worker) : Distribution();
+
+  // Direct light
+  if (m_nee && hasSmooth) {
+    const DirectLight direct = sampleDirect(path, si, bsdf, guide, sampler, worker);
+    path.radiance += path.throughput * direct.radiance;
+    if constexpr (Guides::kGuides) path.unguidedRadiance += path.unguidedThroughput * direct.unguided;
+    if (worker.records) worker.recorder.addDirect(direct.radiance * path.arriving);
+    if (worker.reflections) worker.reflectionRecorder.add(path.throughput * direct.radiance);
+  }
+
+  // The next direction
+  return scatter(path, si, bsdf, guide, sampler, worker, ray);
 }
 
 template <GuideSource Guides>
@@ -157,16 +171,30 @@ bool GuidedPathLoop<Guides>::pathEnds(const PathState& path, const SurfaceIntera
   return m_settings.strictNormals && si.ng.dot(si.wo) * si.frame.n.dot(si.wo) <= 0;
 }
 
+/// How many branches the path goes on in; all but one wait.
 template <GuideSource Guides>
-bool GuidedPathLoop<Guides>::survivesRoulette(PathState& path, Sampler& sampler, PathWorker& worker) const noexcept {
-  if (path.depth <= m_settings.rrDepth) return true;
-  // The radiance carried shrinks by eta^2 at each refraction and may grow again at the next; roulette looks past that.
-  const float survivalProbability = std::min(maxComponent(path.unguidedThroughput) * path.eta * path.eta, 0.95f);
-  if (!(sampler.next1D() < survivalProbability)) return false;
-  path.throughput /= survivalProbability;
-  path.unguidedThroughput /= survivalProbability;
-  if (worker.records) worker.recorder.survived(survivalProbability);
-  return true;
+int GuidedPathLoop<Guides>::playRoulette(PathState& path, const SurfaceInteraction& si, Sampler& sampler,
+                                         PathWorker& worker) const noexcept {
+  float factor = worker.roulette.splittingFactor(path, si, worker.pixelScale);
+  if (factor == 1) return 1;
+  if (factor > 1 && factor > float(worker.branchesLeft)) {
+    ++worker.counters.cappedSplits;
+    factor = std::max(1.0f, float(worker.branchesLeft));
+  }
+  const int whole = int(factor);
+  const int branches = whole + (sampler.next1D() < factor - float(whole) ? 1 : 0);
+  if (branches == 0) return 0;
+
+  path.throughput /= factor;
+  path.unguidedThroughput /= factor;
+  if (worker.records) worker.recorder.survived(factor);
+  if (branches > 1) {
+    ++worker.counters.splits;
+    worker.counters.branches += std::uint64_t(branches - 1);
+    worker.branchesLeft -= branches - 1;
+    worker.waiting.push_back({path, si, worker.recorder.place(), worker.reflectionRecorder.openCount(), branches - 1});
+  }
+  return branches;
 }
 
 template <GuideSource Guides>
@@ -179,13 +207,14 @@ void GuidedPathLoop<Guides>::absorb(PathState& path, float distance) const noexc
 template <GuideSource Guides>
 auto GuidedPathLoop<Guides>::sampleDirect(const PathState& path, const SurfaceInteraction& si, const SurfaceBsdf& bsdf,
                                           const Distribution& guide, Sampler& sampler,
-                                          RenderCounters& counters) const noexcept -> DirectLight {
+                                          PathWorker& worker) const noexcept -> DirectLight {
   const float uLight = sampler.next1D();
   const DirectSample light = m_scene.sampleDirect(m_scene.receiver(si), uLight, sampler.next2D());
   if (!(light.pdf > 0) || isBlack(light.radiance)) return {};
   const BsdfEvaluation f = bsdf.evaluate(light.wi);
   if (isBlack(f.bsdfCos)) return {};
-  ++counters.shadowRays;
+  ++worker.counters.shadowRays;
+  if (worker.reflections) worker.reflectionRecorder.addCost(RouletteCost::kShadowRay);
   if (!m_scene.visible(si, light)) return {};
   Spectrum unweighted = f.bsdfCos * light.radiance * (1 / light.pdf);
   if (m_hasMedia) {
@@ -205,6 +234,7 @@ bool GuidedPathLoop<Guides>::scatter(PathState& path, const SurfaceInteraction& 
   const float uChoice = sampler.next1D();
   const auto draw = guiding::sampleMixture(bsdf, guide, uChoice, sampler.next2D());
   ++worker.counters.scatterings;
+  if (worker.reflections) worker.reflectionRecorder.addCost(RouletteCost::kScattering);
   if (guide) ++worker.counters.guidedScatterings;
   if constexpr (Guides::kGuides)
     if (draw.pdf > 0) path.likelihood *= draw.bsdfPdf / draw.pdf;

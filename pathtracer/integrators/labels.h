@@ -139,6 +139,15 @@ struct Labels<DirectEstimator> {
 };
 
 template <>
+struct Labels<RouletteMethod> {
+  static constexpr std::array<std::pair<RouletteMethod, std::string_view>, 3> kTable{{
+      {RouletteMethod::Classic, "classic"},
+      {RouletteMethod::Adjoint, "adjoint"},
+      {RouletteMethod::Ears, "ears"},
+  }};
+};
+
+template <>
 struct Labels<SamplerKind> {
   static constexpr std::array<std::pair<SamplerKind, std::string_view>, 2> kTable{{
       {SamplerKind::Independent, "independent"},

@@ -22,34 +22,45 @@ PassRenderer::PassRenderer(const Scene& scene, const RenderSettings& settings)
       m_workers(settings.threads),
       m_workerStates(std::size_t(m_workers.count())) {
   for (std::size_t i = 0; i < m_workerStates.size(); ++i) m_workerStates[i].index = int(i);
+  if (settings.roulette.method != RouletteMethod::Classic)
+    for (PathWorker& worker : m_workerStates) worker.waiting.reserve(PathWorker::kMostBranches);
 }
 
-void PassRenderer::render(const PathLoop& loop, SampleRange samples, const PassTargets& targets) {
+void PassRenderer::render(const PathLoop& loop, const Roulette& roulette, SampleRange samples,
+                          const PassTargets& targets) {
+  const bool learns = targets.learner || targets.reflections;
   const std::int64_t pathsPerTile = std::int64_t(kTileSize) * kTileSize * samples.count;
   const std::size_t tilesPerBatch =
-      targets.learner ? std::size_t(std::max<std::int64_t>(1, kRecordedPaths / pathsPerTile)) : m_tiles.count();
-  if (targets.learner) m_records.resize(std::min(tilesPerBatch, m_tiles.count()));
+      learns ? std::size_t(std::max<std::int64_t>(1, kRecordedPaths / pathsPerTile)) : m_tiles.count();
+  const std::size_t mostBuffers = std::min(tilesPerBatch, m_tiles.count());
+  if (targets.learner) m_samples.resize(mostBuffers);
+  if (targets.reflections) m_reflections.resize(mostBuffers);
+  for (PathWorker& worker : m_workerStates) worker.roulette = roulette;
 
   for (std::size_t begin = 0; begin < m_tiles.count(); begin += tilesPerBatch) {
     const std::size_t count = std::min(tilesPerBatch, m_tiles.count() - begin);
     m_workers.forEach(count, [&](std::size_t i, int worker) {
-      renderTile(m_tiles[begin + i], loop, samples, targets, m_workerStates[std::size_t(worker)],
-                 targets.learner ? &m_records[i] : nullptr);
+      const TileRecords records{targets.learner ? &m_samples[i] : nullptr,
+                                targets.reflections ? &m_reflections[i] : nullptr};
+      renderTile(m_tiles[begin + i], loop, samples, targets, records, m_workerStates[std::size_t(worker)]);
     });
-    if (targets.learner) learn(*targets.learner, count);
+    if (learns) learn(targets, count);
   }
 }
 
 void PassRenderer::renderTile(const Tile& tile, const PathLoop& loop, SampleRange samples, const PassTargets& targets,
-                              PathWorker& worker, guiding::SampleBuffer* records) const {
+                              const TileRecords& records, PathWorker& worker) const {
   Sampler sampler(m_settings.sampler, m_settings.seed);
   FirstHit firstHit;
   worker.firstHit = targets.aovs ? &firstHit : nullptr;
-  worker.records = records != nullptr;
-  if (records) records->clear();
+  worker.records = records.samples != nullptr;
+  worker.reflections = records.reflections;
+  if (records.samples) records.samples->clear();
+  if (records.reflections) records.reflections->clear();
 
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; ++x) {
+      worker.pixelScale = worker.roulette.pixelScale(x, y);
       for (std::int64_t i = samples.first; i < samples.first + samples.count; ++i) {
         sampler.startPath(x, y, std::uint32_t(i));
         const Vec2 film = Vec2(float(x) + 0.5f, float(y) + 0.5f) + sampleFilter(m_settings.filter, sampler.next2D());
@@ -59,19 +70,22 @@ void PassRenderer::renderTile(const Tile& tile, const PathLoop& loop, SampleRang
         targets.film.addUnguidedSquare(x, y, worker.unguidedSquare);
         ++worker.counters.paths;
         if (targets.aovs) targets.aovs->add(x, y, firstHit);
-        if (records) worker.recorder.finish(*records);
+        if (records.samples) worker.recorder.finish(*records.samples);
       }
     }
   }
 }
 
-void PassRenderer::learn(PathGuide& guide, std::size_t buffers) {
+void PassRenderer::learn(const PassTargets& targets, std::size_t tiles) {
   std::size_t bytes = 0;
-  for (const guiding::SampleBuffer& buffer : m_records) bytes += buffer.size() * sizeof(guiding::RadianceSample);
+  for (const auto& buffer : m_samples) bytes += buffer.size() * sizeof(guiding::RadianceSample);
+  for (const auto& buffer : m_reflections) bytes += buffer.size() * sizeof(guiding::ReflectionSample);
   m_peakRecordBytes = std::max(m_peakRecordBytes, bytes);
 
   const RenderClock clock;
-  m_workers.execute([&] { guide.learn(std::span(m_records).first(buffers)); });
+  if (targets.learner) m_workers.execute([&] { targets.learner->learn(std::span(m_samples).first(tiles)); });
+  if (targets.reflections)
+    for (std::size_t i = 0; i < tiles; ++i) targets.reflections->accumulate(m_reflections[i]);
   m_trainSeconds += clock.seconds();
 }
 
@@ -83,6 +97,9 @@ RenderCounters PassRenderer::counters() const {
     sum.shadowRays += worker.counters.shadowRays;
     sum.scatterings += worker.counters.scatterings;
     sum.guidedScatterings += worker.counters.guidedScatterings;
+    sum.splits += worker.counters.splits;
+    sum.branches += worker.counters.branches;
+    sum.cappedSplits += worker.counters.cappedSplits;
   }
   return sum;
 }

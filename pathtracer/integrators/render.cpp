@@ -10,6 +10,7 @@
 #include "integrators/pass_renderer.h"
 #include "integrators/path_guide.h"
 #include "integrators/render_clock.h"
+#include "integrators/roulette_training.h"
 
 namespace pt {
 
@@ -32,10 +33,13 @@ class RenderRun {
   bool guides(const guiding::IterationPlan& plan) const { return m_guide && plan.usesGuide && m_guide->hasGuide(); }
   std::unique_ptr<PathLoop> makeLoop(const guiding::IterationPlan& plan);
   void renderIteration(const guiding::IterationPlan& plan);
+  std::int64_t sppOfNextPass(const guiding::IterationPlan& plan);
+  void endPass(std::int64_t spp);
   void closeIteration(const guiding::IterationPlan& plan, bool guided);
   void endGuideIteration();
   guiding::IterationOutcome outcomeSoFar() const;
   std::vector<double> imageWeights() const;
+  Image sumSoFar() const;
   Image imageSoFar(const guiding::IterationPlan& plan) const;
   void callHooks(const guiding::IterationPlan& plan) const;
   bool timeIsOver() const;
@@ -53,6 +57,7 @@ class RenderRun {
   IterationImages m_images;
   Image m_level;                       ///< sum of all samples so far, whatever their weight; only under a schedule
   std::unique_ptr<PathGuide> m_guide;  ///< null: unguided
+  std::optional<RouletteTraining> m_roulette;           ///< none: classic
   std::optional<guiding::TrainingSchedule> m_schedule;  ///< none: the whole budget is one iteration
   std::vector<IterationReport> m_iterations;
 
@@ -76,7 +81,10 @@ RenderRun::RenderRun(const Scene& scene, const RenderSettings& settings, const R
       m_images(settings.aovs.variance) {
   const AovSelection& aovs = settings.aovs;
   if (aovs.albedo || aovs.normal || aovs.depth) m_aovs.emplace(settings.width, settings.height, aovs);
-  if (!settings.guiding || !scene.features().hasSmoothMaterials) return;
+  if (!scene.features().hasSmoothMaterials) return;
+  if (settings.roulette.method != RouletteMethod::Classic)
+    m_roulette.emplace(settings.roulette, settings.path.rrDepth, scene.bounds(), settings.width, settings.height);
+  if (!settings.guiding) return;
   guiding::ScheduleSettings schedule = settings.guiding->schedule;
   if (settings.learnFinal) schedule.trialShare = 0;  // training for its own sake
   if (!pretrained) m_schedule.emplace(schedule, settings.spp, settings.seconds);
@@ -117,24 +125,37 @@ std::unique_ptr<PathLoop> RenderRun::makeLoop(const guiding::IterationPlan& plan
 
 void RenderRun::renderIteration(const guiding::IterationPlan& plan) {
   const std::unique_ptr<PathLoop> loop = makeLoop(plan);
-  const PassTargets targets{m_film, m_aovs ? &*m_aovs : nullptr, learns(plan) ? m_guide.get() : nullptr};
-  const std::int64_t pixels = std::int64_t(m_settings.width) * m_settings.height;
-  const std::int64_t sppOfPass = std::max<std::int64_t>(1, kPathsPerPass / pixels);
+  PassTargets targets{m_film, m_aovs ? &*m_aovs : nullptr, learns(plan) ? m_guide.get() : nullptr};
 
   m_film.clear();
   m_sppOfIteration = 0;
   m_passOfIteration = 0;
+  if (m_roulette) m_roulette->beginIteration(m_schedule && m_schedule->awaitsTrial());
   do {
     const double passStart = m_clock.seconds();
-    const std::int64_t count = std::min(sppOfPass, plan.spp - m_sppOfIteration);
-    m_passes.render(*loop, {m_sppDone, count}, targets);
-    ++m_passOfIteration;
-    m_sppDone += count;
-    m_sppOfIteration += count;
+    const std::int64_t count = sppOfNextPass(plan);
+    targets.reflections = m_roulette ? m_roulette->learner() : nullptr;
+    m_passes.render(*loop, m_roulette ? m_roulette->roulette() : Roulette(m_settings.path.rrDepth), {m_sppDone, count},
+                    targets);
+    endPass(count);
     m_passSeconds = m_clock.seconds() - passStart;
     m_clock.excluded([&] { callHooks(plan); });
   } while (m_sppOfIteration < plan.spp && !timeIsOver() && !stopped());
   closeIteration(plan, guides(plan));
+}
+
+std::int64_t RenderRun::sppOfNextPass(const guiding::IterationPlan& plan) {
+  const std::int64_t pixels = std::int64_t(m_settings.width) * m_settings.height;
+  std::int64_t left = plan.spp - m_sppOfIteration;
+  if (m_roulette) left = m_roulette->planSamples(left, plan.isFinal);
+  return std::min(left, std::max<std::int64_t>(1, kPathsPerPass / pixels));
+}
+
+void RenderRun::endPass(std::int64_t spp) {
+  ++m_passOfIteration;
+  m_sppDone += spp;
+  m_sppOfIteration += spp;
+  if (m_roulette && m_roulette->add(spp)) m_roulette->endWindow(m_film, sumSoFar(), m_sppDone, m_passes.counters());
 }
 
 void RenderRun::closeIteration(const guiding::IterationPlan& plan, bool guided) {
@@ -180,6 +201,13 @@ guiding::IterationOutcome RenderRun::outcomeSoFar() const {
 
 std::vector<double> RenderRun::imageWeights() const {
   return m_schedule ? m_schedule->imageWeights() : std::vector<double>{1.0};
+}
+
+/// Sum of all samples of each pixel, whatever the weight of their iteration.
+Image RenderRun::sumSoFar() const {
+  Image sum = m_level;
+  addWeighted(sum, m_film.mean(), double(m_sppOfIteration));
+  return sum;
 }
 
 /// The picture a user would get if the run ended now.

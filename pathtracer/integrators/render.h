@@ -20,6 +20,21 @@ namespace pt {
 
 using guiding::MisHeuristic;
 
+/// Russian roulette and splitting.
+enum class RouletteMethod {
+  Classic,  ///< survival by the throughput that BSDF sampling would have; no splitting
+  Adjoint,  ///< by the path's expected contribution to its pixel [Vorba & Křivánek 2016]
+  Ears,     ///< by expected variance and cost: efficiency-aware [Rath et al. 2022]
+};
+
+/// All methods but Classic learn from the samples rendered so far.
+struct RouletteSettings {
+  RouletteMethod method = RouletteMethod::Classic;
+  float maxSplits = 4;  ///< most branches of a path at one vertex, on average; range: [1, 100]
+  float window = 5;     ///< Adjoint: ratio of the ends of the window; > 1
+  bool trial = true;    ///< after a few samples the method must beat Classic, or the rest is played classically
+};
+
 /// A guided renderer's settings: the field, and the schedule that trains it.
 struct GuidingSettings {
   guiding::FieldSettings field;
@@ -46,6 +61,7 @@ struct RenderSettings {
 
   bool nee = true;
   MisHeuristic heuristic = MisHeuristic::Balance;  ///< between light sampling and scattering
+  RouletteSettings roulette;
   AovSelection aovs;
 
   std::optional<DirectSettings> direct;    ///< there: the direct-lighting integrator renders instead of the path tracer
@@ -69,6 +85,8 @@ struct IterationReport {
 struct RenderCounters {
   std::uint64_t paths = 0, rays = 0, shadowRays = 0;
   std::uint64_t scatterings = 0, guidedScatterings = 0;  ///< guided: a guide was mixed in at the vertex
+  std::uint64_t splits = 0, branches = 0;                ///< vertices where a path was split; branches beside the first
+  std::uint64_t cappedSplits = 0;                        ///< splits held back because the path had branched enough
   std::uint64_t rejectedSamples = 0;                     ///< non-finite or negative path values, splatted as black
 };
 

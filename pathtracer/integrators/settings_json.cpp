@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/near_name.h"
+#include "integrators/check_settings.h"
 #include "integrators/guiding_presets.h"
 #include "integrators/labels.h"
 
@@ -63,6 +64,13 @@ void visitMembers(Is<OpenPglSettings> auto& s, auto&& visitor) {
   visitor("deterministic", s.deterministic);
   visitor("cosineProduct", s.cosineProduct);
   visitor("bsdfSamplingFraction", s.bsdfSamplingFraction);
+}
+
+void visitMembers(Is<RouletteSettings> auto& s, auto&& visitor) {
+  visitor("method", s.method);
+  visitor("maxSplits", s.maxSplits);
+  visitor("window", s.window);
+  visitor("trial", s.trial);
 }
 
 void visitMembers(Is<GuidingSettings> auto& s, auto&& visitor) {
@@ -213,7 +221,26 @@ GuidingSettings loadGuidingSettings(const std::filesystem::path& file) {
   return guidingSettingsFromJson(json, file.string());
 }
 
+RouletteSettings rouletteSettingsFromJson(const nlohmann::ordered_json& json, const std::string& source,
+                                          const std::string& pointer) {
+  const Place place{json, source, pointer};
+  RouletteSettings settings;
+  if (json.is_string())
+    read(place, settings.method);
+  else
+    readMembers(place, settings);
+  try {
+    checkRoulette(settings);
+  } catch (const InputError& error) {
+    place.fail(error.what());
+  }
+  return settings;
+}
+
 nlohmann::ordered_json toJson(const GuidingSettings& settings) {
+  return writtenMembers(settings);
+}
+nlohmann::ordered_json toJson(const RouletteSettings& settings) {
   return writtenMembers(settings);
 }
 nlohmann::ordered_json toJson(const guiding::FieldSettings& settings) {

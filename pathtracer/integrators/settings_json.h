@@ -24,8 +24,14 @@ GuidingSettings loadGuidingSettings(const std::filesystem::path& file);
 DirectSettings directSettingsFromJson(const nlohmann::ordered_json& json, const std::string& source,
                                       const std::string& pointer = {});
 
-/// Everything, such that guidingSettingsFromJson() gives the same settings back.
+/// Reads how roulette is played: a method's name or {"method": "ears", "maxSplits": 4, "window": 5, "trial": true}.
+/// Throws as above.
+RouletteSettings rouletteSettingsFromJson(const nlohmann::ordered_json& json, const std::string& source,
+                                          const std::string& pointer = {});
+
+/// Everything, such that the functions above give the same settings back.
 nlohmann::ordered_json toJson(const GuidingSettings& settings);
+nlohmann::ordered_json toJson(const RouletteSettings& settings);
 nlohmann::ordered_json toJson(const guiding::FieldSettings& settings);
 nlohmann::ordered_json toJson(const DirectSettings& settings);
 

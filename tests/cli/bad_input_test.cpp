@@ -149,6 +149,10 @@ TEST_CASE("options that make no sense", "[cli]") {
   refused({"--seed", "-1"});
   refused({"--nee", "maybe"}, {"maybe"});
   refused({"--heuristic", "best"}, {"best"});
+  refused({"--roulette", "eras"}, {"did you mean 'ears'?"});
+  refused({"--roulette", "ears:0"}, {"from 1 to 100"});
+  refused({"--roulette", "adjoint:nan"}, {"from 1 to 100"});
+  refused({"--roulette", "classic:4"}, {"from 1 to 100"});
   refused({"--sampler", "halton"}, {"halton"});
   refused({"--guiding", "muller2017"}, {"did you mean 'mueller2017'?"});
   refused({"--guiding", "absent.json"}, {"absent.json"});

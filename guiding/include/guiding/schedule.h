@@ -75,6 +75,10 @@ class TrainingSchedule {
   /// The next iteration, given what has been reported so far.
   IterationPlan next() const;
 
+  /// Guiding is still to be put on trial. Until then samples with and without the guide must be played alike, or
+  /// IterationOutcome::unguidedRelativeVariance would not predict those without.
+  bool awaitsTrial() const { return m_settings.trialShare > 0 && !trial(); }
+
   /// Tells how the iteration that next() planned came out.
   void report(const IterationPlan& plan, const IterationOutcome& outcome);
 

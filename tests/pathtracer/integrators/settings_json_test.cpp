@@ -88,3 +88,28 @@ TEST_CASE("broken settings are named with their place", "[settings]") {
              Contains("#/preset: no guiding preset 'muller2017'; did you mean 'mueller2017'?"));
   CHECK_THAT(errorOf(R"({"schedule": {"sppPerPass": 0}})"), Contains("#/schedule: sppPerPass"));
 }
+
+TEST_CASE("roulette settings are a method's name or an object", "[settings]") {
+  const auto read = [](const char* text) {
+    return pt::rouletteSettingsFromJson(ordered_json::parse(text), "p.json", "/roulette");
+  };
+  CHECK(read(R"("ears")").method == pt::RouletteMethod::Ears);
+  const pt::RouletteSettings settings = read(R"({"method": "adjoint", "maxSplits": 8, "window": 3, "trial": false})");
+  CHECK(settings.method == pt::RouletteMethod::Adjoint);
+  CHECK(settings.maxSplits == 8);
+  CHECK(settings.window == 3);
+  CHECK_FALSE(settings.trial);
+  CHECK(pt::toJson(read(pt::toJson(settings).dump().c_str())) == pt::toJson(settings));
+
+  const auto errorOfRoulette = [&](const char* text) -> std::string {
+    try {
+      read(text);
+    } catch (const pt::InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  CHECK(errorOfRoulette(R"("eras")") == "p.json#/roulette: 'eras' is no choice here; did you mean 'ears'?");
+  CHECK(errorOfRoulette(R"({"maxSplits": 0})").find("p.json#/roulette") == 0);
+  CHECK(errorOfRoulette(R"({"maxsplits": 2})").find("unknown key 'maxsplits'") != std::string::npos);
+}

@@ -20,7 +20,7 @@ SecondMoments secondMoments(const pt::Scene& scene, const pt::RenderSettings& se
   const auto guide = pt::makeGuide(scene, *settings.guiding);
   for (int iteration = 0; iteration < 5; ++iteration) {
     const auto loop = guide->hasGuide() ? guide->makeLoop(scene, settings, 1) : pt::unguidedLoop(scene, settings);
-    passes.render(*loop, {iteration * 64, 64}, {film, nullptr, guide.get()});
+    passes.render(*loop, pt::Roulette(settings.path.rrDepth), {iteration * 64, 64}, {film, nullptr, guide.get()});
     guide->endIteration(64);
   }
 
