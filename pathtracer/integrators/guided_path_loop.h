@@ -131,6 +131,7 @@ template <GuideSource Guides>
 bool GuidedPathLoop<Guides>::reflect(PathState& path, const SurfaceInteraction& si, Sampler& sampler,
                                      PathWorker& worker, Ray& ray) const noexcept {
   const bool hasSmooth = si.material->traits().hasSmooth;
+  if (hasSmooth) path.previous = m_scene.receiver(si);
   if (worker.reflections && hasSmooth) worker.reflectionRecorder.open(si.p, path.throughput);
 
   // The guide at this point
@@ -209,7 +210,7 @@ auto GuidedPathLoop<Guides>::sampleDirect(const PathState& path, const SurfaceIn
                                           const Distribution& guide, Sampler& sampler,
                                           PathWorker& worker) const noexcept -> DirectLight {
   const float uLight = sampler.next1D();
-  const DirectSample light = m_scene.sampleDirect(m_scene.receiver(si), uLight, sampler.next2D());
+  const DirectSample light = m_scene.sampleDirect(path.previous, uLight, sampler.next2D());
   if (!(light.pdf > 0) || isBlack(light.radiance)) return {};
   const BsdfEvaluation f = bsdf.evaluate(light.wi);
   if (isBlack(f.bsdfCos)) return {};
@@ -243,7 +244,6 @@ bool GuidedPathLoop<Guides>::scatter(PathState& path, const SurfaceInteraction& 
   path.throughput *= draw.weight;
   path.unguidedThroughput *= draw.bsdfPdf > 0 ? draw.weight * (draw.pdf / draw.bsdfPdf) : draw.weight;
   path.eta *= bsdf.etaCrossed(draw.wi);
-  path.previous = m_scene.receiver(si);
   path.pdf = draw.pdf;
   path.bsdfPdf = draw.bsdfPdf;
   path.isDelta = draw.isDelta;

@@ -22,7 +22,7 @@ struct PathState {
   float likelihood = 1;             ///< density of this path under BSDF sampling alone over its density here
   float eta = 1;                    ///< product of the relative indices of refraction crossed
   int depth = 1;                    ///< edges from the camera to the current hit
-  LightReceiver previous;           ///< where the path scattered last
+  LightReceiver previous;           ///< where the path scattered last, except by specular materials
   float pdf = 0;                    ///< mixture density of the ray at `previous`, per solid angle
   float bsdfPdf = 0;                ///< the BSDF's own
   bool isDelta = true;  ///< light sampling at `previous` cannot find what the ray met: camera rays and delta scattering
