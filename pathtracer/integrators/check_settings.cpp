@@ -44,7 +44,8 @@ void checkDirect(const RenderSettings& settings) {
   const auto fail = [](const std::string& text) { throw InputError("direct: " + text); };
   if (const auto status = settings.direct->validate(); !status) fail(status.error().text);
   if (settings.guiding) fail("this integrator takes no guide; leave guiding out");
-  if (settings.roulette.method != RouletteMethod::Classic) fail("its paths are too short for roulette; leave it classic");
+  if (settings.roulette.method != RouletteMethod::Classic)
+    fail("its paths are too short for roulette; leave it classic");
   if (!usesOptimalWeights(settings.direct->estimator)) return;
   if (settings.heuristic != MisHeuristic::Balance)
     fail("optimal weights take the heuristic's place; leave it at balance");
