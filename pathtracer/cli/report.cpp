@@ -40,7 +40,8 @@ Json toJson(const RenderCounters& counters) {
           {"scatterings", counters.scatterings},
           {"guidedScatterings", counters.guidedScatterings},
           {"guidedShare", share},
-          {"rejectedSamples", counters.rejectedSamples}};
+          {"rejectedSamples", counters.rejectedSamples},
+          {"largestSample", counters.largestSample}};
 }
 
 }  // namespace

@@ -69,6 +69,7 @@ struct RenderCounters {
   std::uint64_t paths = 0, rays = 0, shadowRays = 0;
   std::uint64_t scatterings = 0, guidedScatterings = 0;  ///< guided: a guide was mixed in at the vertex
   std::uint64_t rejectedSamples = 0;                     ///< non-finite or negative path values, splatted as black
+  float largestSample = 0;                               ///< of all finite path values and channels
 };
 
 struct AovImages {
