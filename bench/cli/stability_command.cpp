@@ -18,6 +18,7 @@ struct Options {
   std::string filter;
   std::filesystem::path out;
   bool fast = false;
+  int effort = 1;
   int threads = int(std::thread::hardware_concurrency());
 };
 
@@ -26,6 +27,7 @@ std::vector<StabilityCase> chosenCases(const Options& options) {
   std::erase_if(chosen, [&](const StabilityCase& c) {
     return (options.fast && !c.isFast) || c.name.find(options.filter) == std::string::npos;
   });
+  for (StabilityCase& c : chosen) c.renders.spp *= options.effort;
   if (chosen.empty()) throw pt::InputError(fmt::format("no case has \"{}\" in its name", options.filter));
   return chosen;
 }
@@ -71,6 +73,9 @@ Command addStabilityCommand(CLI::App& program) {
       "time and memory against the unguided ones. Exit status 1 if a case fails");
   command->add_option("filter", options->filter, "Only cases with this in their name");
   command->add_flag("--fast", options->fast, "Only the cases that CI runs");
+  command->add_option("--effort", options->effort, "Factor on the samples per pixel")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
   command->add_option("-o,--out", options->out, "Folder for stability.json and stability.html")->type_name("DIR");
   command->add_option("--threads", options->threads, "Pictures rendered at a time")
       ->check(CLI::Range(1, 4096))

@@ -23,8 +23,10 @@ SceneMaker& SceneMaker::look(const Vec3& from, const Vec3& at, float fovDegrees)
   const Vec3 forward = (at - from).normalized();
   const Vec3 up = std::abs(forward.y) < 0.99f ? Vec3(0, 1, 0) : Vec3(0, 0, 1);
   const Vec3 left = up.cross(forward).normalized();
-  m_scene.camera = pt::PerspectiveCamera{
-      .toWorld = frame(left, forward.cross(left), forward, from), .fovDegrees = fovDegrees, .nearClip = 0};
+  pt::CameraDescription& camera = m_scene.camera.emplace();
+  camera.toWorld = frame(left, forward.cross(left), forward, from);
+  camera.fovDegrees = fovDegrees;
+  camera.nearClip = 0;
   return *this;
 }
 
@@ -83,6 +85,16 @@ SceneMaker& SceneMaker::point(const Vec3& position, const pt::Spectrum& intensit
 
 SceneMaker& SceneMaker::sky(const pt::Spectrum& radiance) {
   m_scene.lights.push_back({pt::ConstantEnvironment{radiance}, "light"});
+  return *this;
+}
+
+SceneMaker& SceneMaker::skyMap(int width, int height, const std::function<pt::Spectrum(int x, int y)>& radiance) {
+  auto image = std::make_shared<pt::Image>(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) image->at(x, y) = radiance(x, y);
+  pt::EnvironmentMap map;
+  map.image = std::move(image);
+  m_scene.lights.push_back({std::move(map), "light"});
   return *this;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+
+#include "film/film.h"
 #include "scene/scene_description.h"
 
 namespace bench {
@@ -33,6 +36,9 @@ class SceneMaker {
                    std::vector<pt::Vec3> normals = {});
   SceneMaker& point(const pt::Vec3& position, const pt::Spectrum& intensity);
   SceneMaker& sky(const pt::Spectrum& radiance);
+
+  /// A map of the sky from its pixels' radiances; row 0 is above.
+  SceneMaker& skyMap(int width, int height, const std::function<pt::Spectrum(int x, int y)>& radiance);
 
   /// Moves and scales everything so far, the camera too.
   SceneMaker& transform(float scale, const pt::Vec3& translation);

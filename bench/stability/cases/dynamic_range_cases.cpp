@@ -36,20 +36,33 @@ SceneMaker floorUnderSphere(float radius, float intensity) {
   return maker;
 }
 
-/// Diffuse blocks on a floor under a sky, with a far disk of the sun's angular size.
-SceneMaker outdoors(float sky, float sun) {
+/// Diffuse blocks on a floor.
+SceneMaker blocks() {
   SceneMaker maker;
   const int ground = maker.diffuse(pt::Spectrum(0.4f));
   maker.plane({0, 0, 0}, {0, 0, 4}, {4, 0, 0}, ground);
   maker.box({0.5f, 0.5f, 0}, {0.3f, 0.5f, 0.3f}, ground);
   maker.box({-0.7f, 0.3f, 0.4f}, {0.3f, 0.3f, 0.3f}, ground);
   maker.look({0, 1.5f, 4}, {0, 0.4f, 0}, 40);
+  return maker;
+}
+
+/// Under a sky, with a far disk of the sun's angular size.
+SceneMaker outdoors(float sky, float sun) {
+  SceneMaker maker = blocks();
   if (sky > 0) maker.sky(pt::Spectrum(sky));
   if (sun > 0) {
     const pt::Vec3 towards(0.4f, 0.8f, 0.447f), u = towards.cross(pt::Vec3(0, 1, 0)).normalized();
     const float half = 40 * 0.00465f;
     maker.plane(towards * 40, u * half, u.cross(-towards) * half, kNoMaterial, pt::Spectrum(sun));
   }
+  return maker;
+}
+
+/// Under a map whose hot texel is the only one that differs.
+SceneMaker underMap(float sky, float hot) {
+  SceneMaker maker = blocks();
+  maker.skyMap(256, 128, [=](int x, int y) { return pt::Spectrum(x == 90 && y == 40 ? hot : sky); });
   return maker;
 }
 
@@ -81,13 +94,22 @@ StabilityCases dynamicRangeCases() {
                    .expectation = "The sum of the pictures by sky and by sun alone.",
                    .scene = [] { return outdoors(1, 1e9f); },
                    .truth = AsOtherScenes{{{outdoors(1, 0), 1}, {outdoors(0, 1), 1e9}}}});
+  cases.push_back({.name = "range/map-1e9-to-1",
+                   .expectation = "A map with a texel of 1e9 in a sky of 1: the sum of the two.",
+                   .scene = [] { return underMap(1, 1e9f); },
+                   .truth = AsOtherScenes{{{underMap(1, 0), 1}, {underMap(0, 1e9f), 1}}}});
+  cases.push_back(
+      {.name = "range/map-hot-texel",
+       .expectation = "A black map with one hot texel shines as a map a millionth as bright, times a million.",
+       .scene = [] { return underMap(0, 1e6f); },
+       .truth = AsOtherScenes{{{underMap(0, 1), 1e6}}}});
   cases.push_back({.name = "range/all-black",
                    .expectation = "No light: black, and nothing is learned.",
                    .scene = [] { return roomWithUplight(pt::Spectrum(0.0f)); },
                    .truth = KnownRadiance{0}});
   cases.push_back({.name = "range/subnormal",
                    .expectation = "A furnace at 4e-40 shows 8e-40, to the few digits such numbers have.",
-                   .scene = [] { return furnace(0.5f, 4e-40f); },
+                   .scene = [] { return furnace(0.5f, 4e-40f).depths(-1, 5); },
                    .truth = KnownRadiance{8e-40},
                    .renders = {.tolerance = 1e-3}});
   cases.push_back({.name = "range/beyond-float",
