@@ -63,6 +63,8 @@ std::optional<pt::GuidingSettings> readGuiding(const Json& json, const JsonPlace
 void readSettings(JsonObject& object, Variant& variant) {
   variant.nee = object.boolean("nee", true);
   variant.heuristic = choice(object, "heuristic", pt::MisHeuristic::Balance);
+  variant.environment.form = choice(object, "environment", variant.environment.form);
+  variant.environment.lightShare = float(object.number("lightShare", 0.01, 0.99, 0));
   variant.sampler = choice(object, "sampler", pt::SamplerKind::Independent);
   if (const Json* direct = object.find("direct")) {
     const JsonPlace place = object.placeOf("direct");
@@ -142,6 +144,7 @@ ScenePlan readScene(const Json& json, const JsonPlace& place, const std::filesys
   scene.load.skipUnsupported = object.boolean("skipUnsupported", false);
   readVariables(object, scene);
   readResolution(object, scene);
+  if (const std::string map = object.string("environmentMap", ""); !map.empty()) scene.environmentMap = folder / map;
   if (object.find("maxDepth")) scene.maxDepth = int(object.integer("maxDepth", -1, 1 << 20, -1));
   scene.budget = readBudget(object);
   scene.reference = readReference(object.require("reference"), object.placeOf("reference"), folder);

@@ -21,6 +21,7 @@ struct Variant {
   std::string note;  ///< shown in the report
   bool nee = true;
   pt::MisHeuristic heuristic = pt::MisHeuristic::Balance;
+  pt::EnvironmentSampling environment;
   pt::SamplerKind sampler = pt::SamplerKind::Independent;
   std::optional<pt::DirectSettings> direct;    ///< none: the path tracer
   std::optional<pt::GuidingSettings> guiding;  ///< none: unguided
@@ -57,8 +58,9 @@ struct ScenePlan {
   std::string name;
   std::filesystem::path file;
   pt::LoadOptions load;
-  int width = 0, height = 0;    ///< 0: the scene's own
-  std::optional<int> maxDepth;  ///< none: the scene's own
+  int width = 0, height = 0;             ///< 0: the scene's own
+  std::optional<int> maxDepth;           ///< none: the scene's own
+  std::filesystem::path environmentMap;  ///< in the place of the scene's environment; empty: the scene's own
   std::optional<Budget> budget;
   ReferencePlan reference;
 };

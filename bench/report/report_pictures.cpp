@@ -72,7 +72,7 @@ Json picturesOf(const ScenePlan& scene, const std::vector<std::string>& names, c
   Json pictures = Json::array(), maps = Json::array();
   const ReferenceEstimator& main = scene.reference.main;
   const ReferenceStore store(folder.references);
-  const std::string key = referenceKey(scene, main, hashSceneFolder(scene.file));
+  const std::string key = referenceKey(scene, main, hashScene(scene));
   for (int i = 0; i < main.parts; ++i)
     if (!store.hasPart(key, i)) return pictures;
 

@@ -53,7 +53,7 @@ ReferenceResult judgeReference(const ScenePlan& scene, const ReferenceStore& sto
 SceneResult collectScene(const Plan& plan, const ScenePlan& scene, const RunFolder& folder) {
   SceneResult result;
   result.name = scene.name;
-  const std::string sceneHash = hashSceneFolder(scene.file);
+  const std::string sceneHash = hashScene(scene);
   const ReferenceStore store(folder.references);
   for (const Variant& variant : plan.variants) {
     result.variants.emplace_back().name = variant.name;

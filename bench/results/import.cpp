@@ -23,7 +23,7 @@ const ScenePlan& sceneOf(const Plan& plan, const std::string& name) {
 pt::Image referenceOf(const ScenePlan& scene, const RunFolder& folder) {
   const ReferenceEstimator& main = scene.reference.main;
   const ReferenceStore store(folder.references);
-  const std::string key = referenceKey(scene, main, hashSceneFolder(scene.file));
+  const std::string key = referenceKey(scene, main, hashScene(scene));
   if (!store.hasPart(key, main.parts - 1))
     throw pt::InputError(fmt::format("scene '{}' has no reference yet: run the plan first", scene.name));
   return combineParts(store.loadParts(key, main.parts), main.sppPerPart).image;

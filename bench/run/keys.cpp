@@ -73,20 +73,30 @@ Json sceneJson(const ScenePlan& scene, const std::string& sceneHash) {
           {"maxDepth", scene.maxDepth ? Json(*scene.maxDepth) : Json()}};
 }
 
+void addContent(Hasher& hasher, const fs::path& file) {
+  std::string bytes(1 << 20, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  while (stream) {
+    stream.read(bytes.data(), std::streamsize(bytes.size()));
+    hasher.add(std::string_view(bytes.data(), std::size_t(stream.gcount())));
+  }
+}
+
 }  // namespace
 
-std::string hashSceneFolder(const fs::path& sceneFile) {
-  if (!fs::is_regular_file(sceneFile)) throw pt::InputError(fmt::format("{}: no such scene file", sceneFile.string()));
-  const fs::path folder = sceneFile.parent_path();
+std::string hashScene(const ScenePlan& scene) {
+  if (!fs::is_regular_file(scene.file))
+    throw pt::InputError(fmt::format("{}: no such scene file", scene.file.string()));
+  const fs::path folder = scene.file.parent_path();
   Hasher hasher;
-  std::string bytes(1 << 20, '\0');
   for (const fs::path& file : filesOf(folder)) {
     hasher.add(fs::relative(file, folder).generic_string());
-    std::ifstream stream(file, std::ios::binary);
-    while (stream) {
-      stream.read(bytes.data(), std::streamsize(bytes.size()));
-      hasher.add(std::string_view(bytes.data(), std::size_t(stream.gcount())));
-    }
+    addContent(hasher, file);
+  }
+  if (!scene.environmentMap.empty()) {
+    if (!fs::is_regular_file(scene.environmentMap))
+      throw pt::InputError(fmt::format("{}: no such environment map", scene.environmentMap.string()));
+    addContent(hasher, scene.environmentMap);
   }
   return fmt::format("{:016x}", hasher.value());
 }

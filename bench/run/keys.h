@@ -7,9 +7,10 @@
 
 namespace bench {
 
-/// Hash of the names and contents of all files in the scene file's folder, which must hold all that the scene needs.
-/// Throws pt::InputError if the scene file is missing or the folder holds so much that it is hardly a scene's own.
-std::string hashSceneFolder(const std::filesystem::path& sceneFile);
+/// Hash of the names and contents of all files in the scene file's folder, which must hold all that the scene needs,
+/// and of the environment map. Throws pt::InputError if one of them is missing or the folder holds so much that it is
+/// hardly a scene's own.
+std::string hashScene(const ScenePlan& scene);
 
 /// Hash of everything that a part of a reference depends on, except its number: more parts extend the same reference.
 std::string referenceKey(const ScenePlan& scene, const ReferenceEstimator& estimator, const std::string& sceneHash);

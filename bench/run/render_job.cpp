@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "integrators/render.h"
+#include "loaders/environment_file.h"
 #include "loaders/load_scene.h"
 #include "results/metric.h"
 #include "run/keys.h"
@@ -13,11 +14,13 @@ namespace bench {
 
 namespace {
 
-pt::SceneDescription loadDescription(const ScenePlan& plan) {
+pt::SceneDescription loadDescription(const ScenePlan& plan, const Variant& variant) {
   pt::SceneDescription description = pt::loadScene(plan.file, plan.load);
+  if (!plan.environmentMap.empty()) pt::replaceEnvironment(description, plan.environmentMap);
   if (plan.width > 0) description.film.width = plan.width;
   if (plan.height > 0) description.film.height = plan.height;
   if (plan.maxDepth) description.integrator.maxDepth = *plan.maxDepth;
+  description.environmentSampling = variant.environment;
   return description;
 }
 
@@ -105,7 +108,7 @@ CellResult summarise(const Job& job, const std::string& key, const pt::RenderRes
 
 pt::Image renderPart(const Plan& plan, const Job& job, const std::string& key) {
   const ReferenceEstimator& estimator = job.estimator();
-  const pt::SceneDescription description = loadDescription(*job.scene);
+  const pt::SceneDescription description = loadDescription(*job.scene, estimator.variant);
   pt::RenderSettings settings = settingsFor(description, estimator.variant, plan);
   settings.spp = estimator.sppPerPart;
   settings.seed = seedOfPart(key, job.index);
@@ -114,7 +117,7 @@ pt::Image renderPart(const Plan& plan, const Job& job, const std::string& key) {
 
 RenderedCell renderCell(const Plan& plan, const Job& job, const std::string& key, const pt::Image& reference) {
   const Budget& budget = plan.budgetOf(*job.scene);
-  const pt::SceneDescription description = loadDescription(*job.scene);
+  const pt::SceneDescription description = loadDescription(*job.scene, *job.variant);
   pt::RenderSettings settings = settingsFor(description, *job.variant, plan);
   settings.spp = budget.spp;
   settings.seconds = budget.seconds;

@@ -90,7 +90,7 @@ void Runner::collectJobs() {
   std::vector<Job> jobs;
   for (const ScenePlan& scene : m_plan.scenes) {
     try {
-      m_sceneHashes[&scene] = hashSceneFolder(scene.file);
+      m_sceneHashes[&scene] = hashScene(scene);
     } catch (const pt::InputError& error) {
       fmt::print(stderr, "{}: {}\n", scene.name, error.what());
       for (const Job& job : cellJobs(m_plan, scene)) storeFailure(m_folder, job.cellId(), "", error.what());

@@ -10,7 +10,7 @@ namespace bench {
 
 void work(const Plan& plan, const RunFolder& folder, const Job& job) {
   const ReferenceStore store(folder.references);
-  const std::string sceneHash = hashSceneFolder(job.scene->file);
+  const std::string sceneHash = hashScene(*job.scene);
   const std::string key = referenceKey(*job.scene, job.estimator(), sceneHash);
   if (!job.isCell()) return store.savePart(key, job.index, renderPart(plan, job, key));
 

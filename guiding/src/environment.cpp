@@ -11,13 +11,6 @@ namespace guiding {
 
 namespace {
 
-EnvironmentAxis columnsOf(const EnvironmentLayout& layout) noexcept {
-  return {layout.width(), false};
-}
-EnvironmentAxis rowsOf(const EnvironmentLayout& layout) noexcept {
-  return {layout.height(), layout.mapping() == EnvironmentMapping::LatLongToPoles};
-}
-
 /// sin(theta) of a row of vertices; 1 where the map preserves area. Texels on the poles themselves must not be lost.
 double stretch(const EnvironmentLayout& layout, const EnvironmentAxis& rows, int row) {
   if (layout.mapping() == EnvironmentMapping::Octahedral) return 1;
@@ -29,30 +22,29 @@ double stretch(const EnvironmentLayout& layout, const EnvironmentAxis& rows, int
 float mix(float a, float b, float t) noexcept {
   return (1 - t) * a + t * b;
 }
+double mix(double a, double b, double t) noexcept {
+  return (1 - t) * a + t * b;
+}
 
-/// The last patch that begins at or before x; never an empty one. upTo(i): mass of the patches before i.
+/// The last of the patches [first, end) that begins at or before x; never an empty one. upTo(i): mass before patch i.
 template <class UpTo>
-int findPatch(int patches, float x, UpTo&& upTo) noexcept {
-  int lower = 0, count = patches;  // the answer lies in [lower, lower + count)
+int findPatch(int first, int end, double x, UpTo&& upTo) noexcept {
+  int count = end - first;
   while (count > 1) {
     const int half = count / 2;
-    const bool upper = upTo(lower + half) <= x;
-    lower += upper ? half : 0;
+    const bool upper = upTo(first + half) <= x;
+    first += upper ? half : 0;
     count = upper ? count - half : half;
   }
-  return lower;
+  return first;
 }
 
 /// Where the integral of the line from (0, a) to (1, b) reaches `share` of its whole.
-float invertLine(float a, float b, float share) noexcept {
-  const float area = share * (a + b);  // twice the area
-  const float slopeRoot = std::sqrt(std::max(0.0f, a * a + (b - a) * area));
-  const float t = area / (a + slopeRoot);
-  return t < 1 ? t : 1.0f;  // 1 for 0/0 too
-}
-
-float belowWhole(float u, float whole) noexcept {
-  return std::min(u * whole, std::nextafter(whole, 0.0f));
+template <class Real>
+float invertLine(Real a, Real b, Real share) noexcept {
+  const Real area = share * (a + b);  // twice the area
+  const Real t = area / (a + std::sqrt(std::max(Real(0), a * a + (b - a) * area)));
+  return t < 1 ? float(t) : 1.0f;  // 1 for 0/0 too
 }
 
 }  // namespace
@@ -100,57 +92,60 @@ void EnvironmentTable::build(std::span<const float> luminance) {
       const std::size_t i = y * m_columns + x;
       if (x > 0) sum += (values[i - 1] + values[i]) / 2 * columns.width(int(x) - 1) / total;
       m_density[i] = float(values[i] / total);
-      m_conditional[i] = float(sum);
+      m_conditional[i] = sum;
     }
   }
   m_marginal.resize(rowCount);
-  double upTo = 0;
-  for (int y = 0; y < rows.patches(); ++y) {
-    upTo += (integrals[std::size_t(y)] + integrals[std::size_t(y) + 1]) / 2 * rows.width(y) / total;
-    m_marginal[std::size_t(y) + 1] = float(upTo);
-  }
+  for (int y = 0; y < rows.patches(); ++y)
+    m_marginal[std::size_t(y) + 1] = m_marginal[std::size_t(y)] + rowMass(y, 0, columns.patches());
 }
 
-DirectionSample EnvironmentTable::sample(const Imath::V2f& u) const noexcept {
-  if (empty()) return {{0, 0, 1}, 0};
-  const EnvironmentAxis columns = columnsOf(m_layout), rows = rowsOf(m_layout);
+EnvironmentTable::Patches EnvironmentTable::allPatches() const noexcept {
+  return {0, columnsOf(m_layout).patches(), 0, rowsOf(m_layout).patches()};
+}
 
+double EnvironmentTable::rowMass(int y, int x0, int x1) const noexcept {
+  const double* upper = &m_conditional[std::size_t(y) * m_columns];
+  const double* lower = upper + m_columns;
+  return ((upper[x1] - upper[x0]) + (lower[x1] - lower[x0])) / 2 * rowsOf(m_layout).width(y);
+}
+
+Imath::V3f EnvironmentTable::draw(const Imath::V2f& u) const noexcept {
+  if (empty()) return {0, 0, 1};
+  return draw(allPatches(), m_marginal.data(), u);
+}
+
+Imath::V3f EnvironmentTable::draw(const Patches& among, const double* marginal, const Imath::V2f& u) const noexcept {
+  constexpr double kBelowOne = 1 - 0x1p-53;
   // The row of patches, and how far down in it
-  const float restY = belowWhole(u.y, m_marginal.back());
-  const int y = findPatch(rows.patches(), restY, [&](int i) { return m_marginal[std::size_t(i)]; });
-  const float* upper = &m_conditional[std::size_t(y) * m_columns];
-  const float* lower = upper + m_columns;
-  const float shareY =
-      (restY - m_marginal[std::size_t(y)]) / (m_marginal[std::size_t(y) + 1] - m_marginal[std::size_t(y)]);
-  const float alongY = invertLine(upper[m_columns - 1], lower[m_columns - 1], shareY);
+  const double restY = mix(marginal[among.y0], marginal[among.y1], std::min(double(u.y), kBelowOne));
+  const int y = findPatch(among.y0, among.y1, restY, [&](int i) { return marginal[i]; });
+  const double* upper = &m_conditional[std::size_t(y) * m_columns];
+  const double* lower = upper + m_columns;
+  const float alongY = invertLine(upper[among.x1] - upper[among.x0], lower[among.x1] - lower[among.x0],
+                                  (restY - marginal[y]) / (marginal[y + 1] - marginal[y]));
 
   // The patch, and how far across in it
-  const auto upTo = [&](int i) { return mix(upper[i], lower[i], alongY); };
-  const float restX = belowWhole(u.x, upTo(columns.patches()));
-  const int x = findPatch(columns.patches(), restX, upTo);
+  const auto upTo = [&](int i) { return mix(upper[i], lower[i], double(alongY)); };
+  const double restX = mix(upTo(among.x0), upTo(among.x1), std::min(double(u.x), kBelowOne));
+  const int x = findPatch(among.x0, among.x1, restX, upTo);
   const float* above = &m_density[std::size_t(y) * m_columns + std::size_t(x)];
   const float* below = above + m_columns;
-  const float shareX = (restX - upTo(x)) / (upTo(x + 1) - upTo(x));
-  const float alongX = invertLine(mix(above[0], below[0], alongY), mix(above[1], below[1], alongY), shareX);
-
-  const Imath::V3f wi = m_layout.toDirection({columns.position({x, alongX}), rows.position({y, alongY})});
-  return {wi, pdf(wi)};
+  const float alongX = invertLine(mix(above[0], below[0], alongY), mix(above[1], below[1], alongY),
+                                  float((restX - upTo(x)) / (upTo(x + 1) - upTo(x))));
+  return m_layout.toDirection({columnsOf(m_layout).position({x, alongX}), rowsOf(m_layout).position({y, alongY})});
 }
 
-float EnvironmentTable::pdf(const Imath::V3f& direction) const noexcept {
+float EnvironmentTable::pdf(const EnvironmentPoint& point) const noexcept {
   if (empty()) return 0;
-  const Imath::V2f uv = m_layout.toPicture(direction);
-  const EnvironmentAxis::Point x = columnsOf(m_layout).locate(uv.x), y = rowsOf(m_layout).locate(uv.y);
+  const EnvironmentAxis::Point x = columnsOf(m_layout).locate(point.uv.x), y = rowsOf(m_layout).locate(point.uv.y);
   const float* above = &m_density[std::size_t(y.patch) * m_columns + std::size_t(x.patch)];
   const float* below = above + m_columns;
-  const float density = mix(mix(above[0], above[1], x.along), mix(below[0], below[1], x.along), y.along);
-  if (m_layout.mapping() == EnvironmentMapping::Octahedral) return density * (1 / (4 * kPiF));
-  const float sinTheta = std::sqrt(direction.x * direction.x + direction.z * direction.z);
-  return sinTheta > 0 ? density / (2 * kPiF * kPiF * sinTheta) : 0.0f;
+  return mix(mix(above[0], above[1], x.along), mix(below[0], below[1], x.along), y.along) * point.areaPerSolidAngle;
 }
 
 std::size_t EnvironmentTable::memoryBytes() const noexcept {
-  return (m_density.capacity() + m_conditional.capacity() + m_marginal.capacity()) * sizeof(float);
+  return m_density.capacity() * sizeof(float) + (m_conditional.capacity() + m_marginal.capacity()) * sizeof(double);
 }
 
 }  // namespace guiding

@@ -68,6 +68,18 @@ struct EnvironmentAxis {
     if (toEnds) return 1.0 / (texels - 1);
     return (patch == 0 || patch == texels ? 0.5 : 1.0) / texels;
   }
+
+  /// Half of the patches on either side of a vertex.
+  double widthAbout(int vertex) const noexcept {
+    return ((vertex > 0 ? width(vertex - 1) : 0) + (vertex < patches() ? width(vertex) : 0)) / 2;
+  }
 };
+
+inline EnvironmentAxis columnsOf(const EnvironmentLayout& layout) noexcept {
+  return {layout.width(), false};
+}
+inline EnvironmentAxis rowsOf(const EnvironmentLayout& layout) noexcept {
+  return {layout.height(), layout.mapping() == EnvironmentMapping::LatLongToPoles};
+}
 
 }  // namespace guiding

@@ -31,6 +31,12 @@ Imath::V2f EnvironmentLayout::toPicture(const Imath::V3f& direction) const noexc
   return m_mapping == EnvironmentMapping::Octahedral ? detail::sphereToOctahedron(direction) : toLatLong(direction);
 }
 
+EnvironmentPoint EnvironmentLayout::locate(const Imath::V3f& direction) const noexcept {
+  if (m_mapping == EnvironmentMapping::Octahedral) return {toPicture(direction), 1 / (4 * kPiF)};
+  const float sinTheta = std::sqrt(direction.x * direction.x + direction.z * direction.z);
+  return {toPicture(direction), sinTheta > 0 ? 1 / (2 * kPiF * kPiF * sinTheta) : 0.0f};
+}
+
 Imath::V3f EnvironmentLayout::toDirection(const Imath::V2f& uv) const noexcept {
   return m_mapping == EnvironmentMapping::Octahedral ? detail::octahedronToSphere(uv) : fromLatLong(uv);
 }

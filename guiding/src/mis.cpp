@@ -124,4 +124,26 @@ CompensationResult compensate(std::span<const double> t, std::span<const double>
   return solve<double>(t, b, alpha, form, q);
 }
 
+float misWeight(MisHeuristic heuristic, std::span<const float> products, std::size_t own) noexcept {
+  constexpr double kCutoff = 0.1;
+  const double largest = *std::max_element(products.begin(), products.end());
+  if (!(products[own] > 0)) return 0;
+  const auto part = [&](float product) {
+    const double x = product / largest;
+    switch (heuristic) {
+      case MisHeuristic::Power:
+        return x * x;
+      case MisHeuristic::Cutoff:
+        return x < kCutoff ? 0.0 : x;
+      case MisHeuristic::Maximum:
+        return x < 1 ? 0.0 : 1.0;
+      default:
+        return x;
+    }
+  };
+  double sum = 0;
+  for (const float product : products) sum += part(product);
+  return float(part(products[own]) / sum);
+}
+
 }  // namespace guiding

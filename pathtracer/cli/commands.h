@@ -15,5 +15,6 @@ Command addRenderCommand(CLI::App& program);
 Command addTrainCommand(CLI::App& program);
 Command addInfoCommand(CLI::App& program);
 Command addCompareCommand(CLI::App& program);
+Command addCompensateEnvmapCommand(CLI::App& program);
 
 }  // namespace pt

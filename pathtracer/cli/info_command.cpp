@@ -10,6 +10,7 @@
 #include "core/replace_file.h"
 #include "film/image_io.h"
 #include "integrators/settings_json.h"
+#include "loaders/file_search.h"
 
 namespace pt {
 
@@ -23,7 +24,8 @@ struct InfoOptions {
 };
 
 bool isScene(const std::filesystem::path& file) {
-  return file.extension() == ".json" || file.extension() == ".xml";
+  const std::string ending = lowerCaseEnding(file);
+  return ending == ".json" || ending == ".xml" || ending == ".gltf" || ending == ".glb";
 }
 
 void printList(const char* title, const std::vector<std::string>& entries) {
@@ -113,7 +115,7 @@ Command addInfoCommand(CLI::App& program) {
   CLI::App* command = program.add_subcommand("info", "Describes a scene or a trained field");
   auto options = std::make_shared<InfoOptions>();
   addOptions(*command, options->scene);
-  command->get_option("scene")->description("Scene file (.json, .xml) or trained field");
+  command->get_option("scene")->description("Scene file (.json, .xml, .gltf, .glb) or trained field");
   command->add_flag("--json", options->json, "Prints JSON, for scripts");
   command->add_option("--at", options->at, "A point x,y,z of a field: draws the densities there")
       ->delimiter(',')

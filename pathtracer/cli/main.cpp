@@ -54,7 +54,8 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer("pathtracer COMMAND --help tells about a command.");
   const std::vector<pt::Command> commands{pt::addRenderCommand(program), pt::addTrainCommand(program),
-                                          pt::addInfoCommand(program), pt::addCompareCommand(program)};
+                                          pt::addInfoCommand(program), pt::addCompareCommand(program),
+                                          pt::addCompensateEnvmapCommand(program)};
   try {
     return parseAndRun(program, commands, argc, argv);
   } catch (const pt::InputError& error) {

@@ -9,6 +9,7 @@
 #include "integrators/guiding_presets.h"
 #include "integrators/labels.h"
 #include "integrators/settings_json.h"
+#include "loaders/environment_file.h"
 #include "loaders/load_scene.h"
 
 namespace pt {
@@ -48,6 +49,21 @@ guiding::CompensationSettings parseCompensation(const std::string& text) {
     throw InputError(fmt::format("--compensation {}: the strength must lie between 0 and 1, as in uniform:0.5", text));
   settings.strength = *strength;
   return settings;
+}
+
+/// "form" or "form:share".
+EnvironmentSampling parseEnvironment(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const auto* form = valueOfLabel<EnvironmentForm>(std::string_view(text).substr(0, colon));
+  if (!form)
+    throw InputError(fmt::format("--environment {}: no such form{}", text,
+                                 suggestName(text.substr(0, colon), labelsOf<EnvironmentForm>())));
+  if (colon == std::string::npos) return {*form};
+  const auto share = parseNumber<float>(std::string_view(text).substr(colon + 1));
+  if (!share || !(*share > 0 && *share < 1))
+    throw InputError(
+        fmt::format("--environment {}: the share must lie between 0 and 1, both excluded, as in mean:0.5", text));
+  return {*form, *share};
 }
 
 bool isFileName(const std::string& text) {
@@ -126,8 +142,14 @@ std::string presetHelp() {
 }  // namespace
 
 void addOptions(CLI::App& command, SceneOptions& options) {
-  command.add_option("scene", options.file, "Scene file: scene.json, or Mitsuba XML (0.5 to 3)")->required();
+  command
+      .add_option("scene", options.file, "Scene file: scene.json, Mitsuba XML (0.5 to 3), or glTF 2.0 (.gltf, .glb)")
+      ->required();
   command.add_option("--resolution", options.resolution, "Size of the picture, such as 640x360 (default: the scene's)");
+  command.add_option(
+      "--environment-map", options.environmentMap,
+      "Lights the scene with this map in the place of its environment: a picture (EXR, HDR), or JSON as in "
+      "scenes/ibl-objects");
   command.add_option("--max-depth", options.maxDepth,
                      "Longest path in edges; 1: emission only, -1: unbounded (default: the scene's)");
   command.add_option("--rr-depth", options.rrDepth,
@@ -155,9 +177,14 @@ void addOptions(CLI::App& command, SamplingOptions& options) {
   command.add_option("--nee", options.nee, "Light sampling (next-event estimation): on or off")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
-  command.add_option("--heuristic", options.heuristic, "How light sampling and scattering share: balance or power")
+  command
+      .add_option("--heuristic", options.heuristic,
+                  "How light sampling and scattering share: balance, power, cutoff or maximum")
       ->check(memberOf<MisHeuristic>())
       ->capture_default_str();
+  command.add_option("--environment", options.environment,
+                     "How light sampling of an environment map is sharpened against scattering: plain, mean, waterfill "
+                     "or normal, with an optional share of light samples as in mean:0.5 (default: mean)");
   command.add_option("--sampler", options.sampler, "Random numbers: independent or sobol (default: the scene's)")
       ->check(memberOf<SamplerKind>());
   command.add_option("--threads", options.threads, "Number of threads; 0: all that the machine has")
@@ -194,9 +221,13 @@ std::string guidingName(const SamplingOptions& options) {
 
 void requireDistinct(const std::vector<OutputFile>& outputs, const SceneOptions& scene,
                      const SamplingOptions& sampling) {
-  std::vector<OutputFile> taken{{"the scene", scene.file},
-                                {"--field", sampling.field},
-                                {"--guiding", isFileName(sampling.guiding) ? sampling.guiding : ""}};
+  requireDistinct(outputs, {{"the scene", scene.file},
+                            {"--environment-map", scene.environmentMap},
+                            {"--field", sampling.field},
+                            {"--guiding", isFileName(sampling.guiding) ? sampling.guiding : ""}});
+}
+
+void requireDistinct(const std::vector<OutputFile>& outputs, std::vector<OutputFile> taken) {
   for (const OutputFile& output : outputs) {
     if (output.file.empty()) continue;
     const auto name = nameOnDisk(output.file);
@@ -218,10 +249,15 @@ SceneDescription loadDescription(const SceneOptions& options) {
     load.variables[variable.substr(0, equals)] = variable.substr(equals + 1);
   }
   SceneDescription description = loadScene(options.file, load);
+  if (!options.environmentMap.empty()) replaceEnvironment(description, options.environmentMap);
   if (!options.resolution.empty()) applyResolution(options.resolution, description.film);
   if (options.maxDepth) description.integrator.maxDepth = *options.maxDepth;
   if (options.rrDepth) description.integrator.rrDepth = *options.rrDepth;
   return description;
+}
+
+void applyTo(SceneDescription& description, const SamplingOptions& options) {
+  if (!options.environment.empty()) description.environmentSampling = parseEnvironment(options.environment);
 }
 
 RenderSettings renderSettings(const SamplingOptions& options, const SceneDescription& description) {

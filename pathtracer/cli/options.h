@@ -16,8 +16,9 @@ namespace pt {
 struct SceneOptions {
   std::filesystem::path file;
   bool skipUnsupported = false;
-  std::vector<std::string> variables;  ///< "name=value"
-  std::string resolution;              ///< "WxH"; empty: the scene's
+  std::vector<std::string> variables;    ///< "name=value"
+  std::string resolution;                ///< "WxH"; empty: the scene's
+  std::filesystem::path environmentMap;  ///< in the place of the scene's environment; empty: the scene's
   std::optional<int> maxDepth, rrDepth;
 };
 
@@ -38,7 +39,7 @@ struct SamplingOptions {
   std::string guiding;       ///< preset or settings file; empty: as the integrator wants it
   std::string compensation;  ///< empty: as `guiding` says
   std::filesystem::path field;
-  std::string nee = "on", heuristic = "balance", sampler;
+  std::string nee = "on", heuristic = "balance", environment, sampler;
   int threads = 0;
   std::uint64_t seed = 0;
 };
@@ -56,12 +57,17 @@ struct OutputFile {
   std::filesystem::path file;  ///< empty: none is written
 };
 
-/// Throws InputError where two outputs are the same file, or one would take the place of something that is read.
+/// Throws InputError where two outputs are the same file, or one would take the place of something that is read. The
+/// files that are read are named like options.
+void requireDistinct(const std::vector<OutputFile>& outputs, std::vector<OutputFile> inputs);
 void requireDistinct(const std::vector<OutputFile>& outputs, const SceneOptions& scene,
                      const SamplingOptions& sampling);
 
 /// Loads the scene and applies the options. Throws InputError.
 SceneDescription loadDescription(const SceneOptions& options);
+
+/// Puts what the options say about light sampling into the scene. Throws InputError.
+void applyTo(SceneDescription& description, const SamplingOptions& options);
 
 /// What the options and the scene ask for. Throws InputError.
 RenderSettings renderSettings(const SamplingOptions& options, const SceneDescription& description);

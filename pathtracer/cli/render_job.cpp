@@ -32,6 +32,7 @@ RenderJob prepareJob(const SceneOptions& sceneOptions, const SamplingOptions& sa
   if (!samplingOptions.field.empty()) job.trainedField = loadField(samplingOptions.field);
   const RenderClock loading;
   job.description = loadDescription(sceneOptions);
+  applyTo(job.description, samplingOptions);
   job.settings = renderSettings(samplingOptions, job.description);
   checkSettings(job.settings);
   job.loadSeconds = loading.seconds();

@@ -44,6 +44,12 @@ Json toJson(const RenderCounters& counters) {
           {"largestSample", counters.largestSample}};
 }
 
+Json toJson(const EnvironmentSampling& sampling) {
+  const bool isAutomatic = sampling.lightShare == 0;
+  return {{"form", labelOf(sampling.form)},
+          {"lightShare", isAutomatic ? Json("automatic") : Json(sampling.lightShare)}};
+}
+
 }  // namespace
 
 nlohmann::ordered_json toJson(const Scene& scene, const SceneDescription& description) {
@@ -56,6 +62,7 @@ nlohmann::ordered_json toJson(const Scene& scene, const SceneDescription& descri
           {"lights", counts.lights},
           {"materials", counts.materials},
           {"memoryBytes", counts.memoryBytes},
+          {"environmentSampling", scene.features().hasEnvironment ? toJson(description.environmentSampling) : Json()},
           {"present", scene.features().present},
           {"leftOut", scene.features().leftOut},
           {"skipped", description.skipped},

@@ -29,9 +29,9 @@ class GuidedPathLoop final : public PathLoop {
       : m_scene(scene),
         m_guides(std::move(guides)),
         m_settings(settings.path),
-        m_nee(settings.nee && scene.features().hasSampleableLights),
+        m_nee(settings.nee && scene.features().hasLightsToWeigh),
         m_hasMedia(scene.features().hasMedia),
-        m_powerHeuristic(settings.heuristic == MisHeuristic::Power) {}
+        m_heuristic(settings.heuristic) {}
 
   Spectrum trace(Ray ray, int x, int y, Sampler& sampler, PathWorker& worker) const noexcept override;
 
@@ -64,7 +64,7 @@ class GuidedPathLoop final : public PathLoop {
   IntegratorDescription m_settings;
   bool m_nee;
   bool m_hasMedia;
-  bool m_powerHeuristic;
+  MisHeuristic m_heuristic;
 };
 
 template <GuideSource Guides>
@@ -78,7 +78,7 @@ struct GuidedPathLoop<Guides>::PathState {
   float likelihood = 1;             ///< density of this path under BSDF sampling alone over its density here
   float eta = 1;                    ///< product of the relative indices of refraction crossed
   int depth = 1;                    ///< edges from the camera to the current hit
-  Vec3 previous;                    ///< where the path scattered last
+  LightReceiver previous;           ///< where the path scattered last
   float pdf = 0;                    ///< mixture density of the ray at `previous`, per solid angle
   float bsdfPdf = 0;                ///< the BSDF's own
   bool isDelta = true;  ///< light sampling at `previous` cannot find what the ray met: camera rays and delta scattering
@@ -147,7 +147,7 @@ auto GuidedPathLoop<Guides>::emission(const PathState& path, const Ray& ray,
     emitted = environment->radianceFrom(ray.direction);
   }
   if (path.isDelta || !m_nee || isBlack(emitted)) return {emitted};
-  return {emitted, hit ? m_scene.pdfDirect(path.previous, *hit) : m_scene.pdfEnvironment(ray.direction)};
+  return {emitted, hit ? m_scene.pdfDirect(path.previous, *hit) : m_scene.pdfEnvironment(path.previous, ray.direction)};
 }
 
 template <GuideSource Guides>
@@ -181,7 +181,7 @@ auto GuidedPathLoop<Guides>::sampleDirect(const PathState& path, const SurfaceIn
                                           const Distribution& guide, Sampler& sampler,
                                           RenderCounters& counters) const noexcept -> DirectLight {
   const float uLight = sampler.next1D();
-  const DirectSample light = m_scene.sampleDirect(si.p, uLight, sampler.next2D());
+  const DirectSample light = m_scene.sampleDirect(m_scene.receiver(si), uLight, sampler.next2D());
   if (!(light.pdf > 0) || isBlack(light.radiance)) return {};
   const BsdfEvaluation f = bsdf.evaluate(light.wi);
   if (isBlack(f.bsdfCos)) return {};
@@ -213,7 +213,7 @@ bool GuidedPathLoop<Guides>::scatter(PathState& path, const SurfaceInteraction& 
   path.throughput *= draw.weight;
   path.unguidedThroughput *= draw.bsdfPdf > 0 ? draw.weight * (draw.pdf / draw.bsdfPdf) : draw.weight;
   path.eta *= bsdf.etaCrossed(draw.wi);
-  path.previous = si.p;
+  path.previous = m_scene.receiver(si);
   path.pdf = draw.pdf;
   path.bsdfPdf = draw.bsdfPdf;
   path.isDelta = draw.isDelta;
@@ -228,8 +228,7 @@ bool GuidedPathLoop<Guides>::scatter(PathState& path, const SurfaceInteraction& 
 template <GuideSource Guides>
 float GuidedPathLoop<Guides>::misWeight(float pdf, float otherPdf) const noexcept {
   if (!(otherPdf > 0)) return 1;
-  return m_powerHeuristic ? guiding::powerHeuristic(1, pdf, 1, otherPdf)
-                          : guiding::balanceHeuristic(1, pdf, 1, otherPdf);
+  return guiding::misWeight(m_heuristic, pdf, otherPdf);
 }
 
 }  // namespace pt

@@ -95,9 +95,21 @@ struct Labels<OpenPglModel> {
 
 template <>
 struct Labels<MisHeuristic> {
-  static constexpr std::array<std::pair<MisHeuristic, std::string_view>, 2> kTable{{
+  static constexpr std::array<std::pair<MisHeuristic, std::string_view>, 4> kTable{{
       {MisHeuristic::Balance, "balance"},
       {MisHeuristic::Power, "power"},
+      {MisHeuristic::Cutoff, "cutoff"},
+      {MisHeuristic::Maximum, "maximum"},
+  }};
+};
+
+template <>
+struct Labels<EnvironmentForm> {
+  static constexpr std::array<std::pair<EnvironmentForm, std::string_view>, 4> kTable{{
+      {EnvironmentForm::Plain, "plain"},
+      {EnvironmentForm::Mean, "mean"},
+      {EnvironmentForm::WaterFilling, "waterfill"},
+      {EnvironmentForm::Normal, "normal"},
   }};
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <guiding/field.h>
+#include <guiding/mis.h>
 #include <guiding/schedule.h>
 #include <guiding/settings.h>
 
@@ -17,7 +18,7 @@
 
 namespace pt {
 
-enum class MisHeuristic { Balance, Power };
+using guiding::MisHeuristic;
 
 /// A guided renderer's settings: the field, and the schedule that trains it.
 struct GuidingSettings {
@@ -44,7 +45,7 @@ struct RenderSettings {
   double seconds = 0;
 
   bool nee = true;
-  MisHeuristic heuristic = MisHeuristic::Balance;
+  MisHeuristic heuristic = MisHeuristic::Balance;  ///< between light sampling and scattering
   AovSelection aovs;
 
   std::optional<DirectSettings> direct;    ///< there: the direct-lighting integrator renders instead of the path tracer

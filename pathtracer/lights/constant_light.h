@@ -17,11 +17,15 @@ class ConstantLight : public EnvironmentLight {
   double power() const noexcept override {
     return 4 * double(kPi) * double(kPi) * m_sceneRadius * m_sceneRadius * luminance(m_radiance);
   }
-  LightSample sampleDirect(const Vec3&, double, const Vec2& u) const noexcept override {
+  Spectrum radianceFrom(const Vec3&) const noexcept override { return m_radiance; }
+
+  /// Sampling the BSDF alone is best.
+  bool sharpen(const EnvironmentSampling& sampling, float) override { return sampling.form == EnvironmentForm::Plain; }
+  std::uint32_t densityFor(const SurfaceInteraction&) const noexcept override { return 0; }
+  LightSample sample(std::uint32_t, const Vec2& u) const noexcept override {
     return {squareToUniformSphere(u), std::numeric_limits<float>::infinity(), m_radiance, kUniformSpherePdf};
   }
-  Spectrum radianceFrom(const Vec3&) const noexcept override { return m_radiance; }
-  float pdfFrom(const Vec3&) const noexcept override { return kUniformSpherePdf; }
+  float pdfFrom(std::uint32_t, const Vec3&) const noexcept override { return kUniformSpherePdf; }
 
  private:
   Spectrum m_radiance;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "film/image_io.h"
+#include "loaders/file_search.h"
 #include "loaders/loader_error.h"
+#include "loaders/painted_environment.h"
 
 namespace pt {
 namespace {
@@ -27,6 +29,7 @@ std::size_t blackenInvalid(Image& image) {
 
 std::shared_ptr<const Image> readEnvironment(const std::filesystem::path& file, const SourceLocation& source,
                                              std::vector<std::string>& notes) {
+  if (lowerCaseEnding(file) == ".json") return std::make_shared<Image>(paint(loadPaintedEnvironment(file)));
   try {
     auto image = std::make_shared<Image>(readImage(file));
     if (const std::size_t count = blackenInvalid(*image))
@@ -36,6 +39,16 @@ std::shared_ptr<const Image> readEnvironment(const std::filesystem::path& file, 
   } catch (const InputError& error) {
     failAt(source, error.what());
   }
+}
+
+void replaceEnvironment(SceneDescription& scene, const std::filesystem::path& file) {
+  EnvironmentMap map;
+  map.image = readEnvironment(file, "environment map", scene.notes);
+  std::erase_if(scene.lights, [](const LightDescription& light) {
+    return std::holds_alternative<ConstantEnvironment>(light.kind) ||
+           std::holds_alternative<EnvironmentMap>(light.kind);
+  });
+  scene.lights.push_back({map, file.string()});
 }
 
 }  // namespace pt

@@ -6,6 +6,7 @@
 #include "core/near_name.h"
 #include "loaders/environment_file.h"
 #include "loaders/json_parts.h"
+#include "loaders/sun_and_sky.h"
 
 namespace pt::json {
 namespace {
@@ -61,9 +62,26 @@ Kind readMap(Context& context, ObjectReader& reader) {
   return map;
 }
 
+Kind readDaylight(Context&, ObjectReader& reader) {
+  SunAndSky daylight;
+  daylight.sunDirection = readDirection(reader).normalized();
+  daylight.turbidity = reader.number("turbidity", float(daylight.turbidity));
+  if (!(daylight.turbidity >= kLeastTurbidity && daylight.turbidity <= kMostTurbidity))
+    reader.require("turbidity").fail(fmt::format("must lie between {} and {}", kLeastTurbidity, kMostTurbidity));
+  daylight.hasSky = reader.boolean("sky", true);
+  daylight.hasSun = reader.boolean("sun", true);
+  daylight.sunRadiusScale = reader.positive("sunRadiusScale", 1);
+  if (daylight.sunRadiusScale > 100) reader.require("sunRadiusScale").fail("must be at most 100");
+  EnvironmentMap map;
+  map.image = std::make_shared<Image>(paint(daylight));
+  map.scale = reader.positive("scale", 1);
+  map.toWorld = readTransform(reader.find("transform"));
+  return map;
+}
+
 const std::map<std::string, std::function<Kind(Context&, ObjectReader&)>> kReaders = {
     {"point", readPoint},       {"spot", readSpot},       {"directional", readDirectional},
-    {"constant", readConstant}, {"environment", readMap},
+    {"constant", readConstant}, {"environment", readMap}, {"daylight", readDaylight},
 };
 
 }  // namespace

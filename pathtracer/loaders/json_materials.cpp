@@ -127,6 +127,7 @@ Kind readMask(Context& context, ObjectReader& reader) {
   MaskMaterial mask;
   mask.material = readMaterial(context, reader.require("material"));
   mask.opacity = readNumber(context, reader, "opacity", 0.5f);
+  if (const auto cutoff = reader.find("cutoff")) mask.cutoff = float(cutoff->number());
   return mask;
 }
 

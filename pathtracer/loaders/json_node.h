@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "loaders/transforms.h"
@@ -14,6 +15,8 @@ namespace pt::json {
 /// Parses a scene file: // comments are allowed, doubled keys and nesting deeper than 64 are not.
 /// Throws InputError "file:line:column: ...".
 nlohmann::json parseFile(const std::filesystem::path& file);
+/// The same for text that was read from `file`.
+nlohmann::json parseText(std::string_view text, const std::filesystem::path& file);
 
 /// A value and where it stands. All conversions throw InputError "file#/pointer: ..." for a value of another kind.
 class Node {

@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 
 constexpr int kMaxNesting = 64;
 
-[[noreturn]] void failInText(const std::filesystem::path& file, const std::string& text, std::size_t byte,
+[[noreturn]] void failInText(const std::filesystem::path& file, std::string_view text, std::size_t byte,
                              const std::string& message) {
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
   const auto lineStart = std::find(std::make_reverse_iterator(end), text.rend(), '\n').base();
@@ -56,7 +56,10 @@ std::string reason(const std::string& what) {
 }  // namespace
 
 Json parseFile(const std::filesystem::path& file) {
-  const std::string text = readTextFile(file);
+  return parseText(readTextFile(file), file);
+}
+
+Json parseText(std::string_view text, const std::filesystem::path& file) {
   try {
     return Json::parse(text, Guard(file), true, true);
   } catch (const Json::parse_error& error) {

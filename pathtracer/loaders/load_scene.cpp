@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "loaders/file_search.h"
+#include "loaders/gltf_scene.h"
 #include "loaders/json_scene.h"
 #include "loaders/mitsuba_scene.h"
 
@@ -30,9 +31,11 @@ SceneDescription loadScene(const std::filesystem::path& file, const LoadOptions&
     scene = loadMitsubaScene(file, options);
   } else if (ending == ".json") {
     scene = loadJsonScene(file, options);
+  } else if (ending == ".gltf" || ending == ".glb") {
+    scene = loadGltfScene(file, options);
   } else {
-    throw InputError(
-        fmt::format("{}: unknown kind of scene; .json (ours) and .xml (Mitsuba) are known", file.string()));
+    throw InputError(fmt::format("{}: unknown kind of scene; .json (ours), .xml (Mitsuba), .gltf and .glb are known",
+                                 file.string()));
   }
   scene.file = file;
   scene.name = displayName(file);

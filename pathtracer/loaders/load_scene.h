@@ -13,7 +13,7 @@ struct LoadOptions {
   std::map<std::string, std::string> variables;  ///< $name = value, for Mitsuba files
 };
 
-/// Loads a scene by its ending: .json (ours) or .xml (Mitsuba 0.5 to 3). Throws InputError.
+/// Loads a scene by its ending: .json (ours), .xml (Mitsuba 0.5 to 3), .gltf or .glb (glTF 2.0). Throws InputError.
 SceneDescription loadScene(const std::filesystem::path& file, const LoadOptions& options = {});
 
 }  // namespace pt

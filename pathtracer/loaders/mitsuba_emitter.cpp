@@ -72,6 +72,8 @@ void readEmitter(Context& context, const Object& object) {
       context.scene.lights.push_back(readConstant(reader));
     } else if (object.type == "envmap") {
       context.scene.lights.push_back(readEnvironmentMap(context, reader));
+    } else if (object.type == "sunsky" || object.type == "sky" || object.type == "sun") {
+      context.scene.lights.push_back(readDaylight(context, reader));
     } else if (object.type == "area") {
       failAt(object.source, "an area emitter belongs inside of a shape");
     } else {

@@ -22,6 +22,8 @@ void readShape(Context& context, const Object& object);
 
 /// Adds a light that is not a shape.
 void readEmitter(Context& context, const Object& object);
+/// A sun, a sky, or both, as a map.
+LightDescription readDaylight(Context& context, Reader& reader);
 /// Radiance of an area light.
 SpectrumParameter readAreaEmitter(Context& context, const Object& object);
 

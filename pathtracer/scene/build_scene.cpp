@@ -207,6 +207,21 @@ class SceneBuilder {
       if (surface.light) surface.lightPmf = m_data.selection.pmf(next++);
     for (std::size_t i = 0; i < lights.size(); ++i)
       if (lights[i] == m_data.environment) m_data.environmentPmf = m_data.selection.pmf(i);
+    if (m_data.environment) sharpenEnvironment(std::move(lights));
+  }
+
+  void sharpenEnvironment(std::vector<const Light*> lights) {
+    EnvironmentLight& environment = *m_data.environment;
+    const EnvironmentSampling& sampling = m_data.environmentSampling = m_description.environmentSampling;
+    const float pmf = m_data.environmentPmf;
+    const float lightShare = sampling.lightShare > 0 ? sampling.lightShare : pmf / (1 + pmf);
+    m_data.environmentLeftToBsdf = !environment.sharpen(sampling, lightShare);
+    m_data.environmentTableBytes = environment.memoryBytes();
+    if (!m_data.environmentLeftToBsdf) return;
+    std::erase(lights, &environment);
+    if (lights.empty()) return;
+    m_data.otherLights = LightSelection(lights);
+    m_data.otherLightsFactor = 1 / (1 - pmf);
   }
 
   void addLight(const PointLight& light, const SourceLocation& source) {
@@ -266,7 +281,6 @@ class SceneBuilder {
 
   void addLight(const EnvironmentMap& light, const SourceLocation& source) {
     auto environment = std::make_unique<EnvironmentMapLight>(light, sceneRadius(), source);
-    m_data.environmentTableBytes = environment->tableBytes();
     m_data.environmentTexels = environment->texels();
     addEnvironment(std::move(environment), source);
   }

@@ -68,11 +68,13 @@ void listLights(const SceneData& data, Lists& lists) {
   lists.add("point, spot and directional lights", data.lights.size() - area - environment,
             "point, spot and directional lights", "none");
   if (data.environmentTexels > 0) {
-    lists.add("texels of the environment map, with a sampling table", data.environmentTexels, "", "");
+    lists.add("texels of an environment map with its sampling tables", data.environmentTexels, "", "");
   } else {
     lists.add("constant environment", environment, "environment light and its sampling", "no environment");
     if (environment) lists.leaveOut("environment sampling table", "the environment is constant");
   }
+  if (data.environmentLeftToBsdf)
+    lists.leaveOut("light sampling of the environment", "it is nearly constant: sampling the materials does better");
   if (data.lights.empty()) lists.leaveOut("light sampling", "no light that can be sampled");
   if (data.blackEmitters > 0) lists.leaveOut(fmt::format("{} lights", data.blackEmitters), "they are black");
 }
@@ -120,6 +122,7 @@ SceneCounts countScene(const SceneData& data) {
 SceneFeatures listFeatures(const SceneData& data) {
   SceneFeatures features;
   features.hasSampleableLights = !data.lights.empty();
+  features.hasLightsToWeigh = !(data.environmentLeftToBsdf ? data.otherLights : data.selection).empty();
   features.hasEnvironment = data.environment != nullptr;
   for (const Material* material : usedMaterials(data)) {
     features.hasSmoothMaterials |= material->traits().hasSmooth;

@@ -18,6 +18,9 @@ void requireCamera(const SceneDescription& description) {
   }
 }
 
+/// LightReceiver::density where the environment is not sampled at all.
+constexpr std::uint32_t kOtherLights = ~0u;
+
 std::unique_ptr<Camera> makeCameraAround(const SceneDescription& description, const Imath::V3d& origin) {
   CameraDescription camera = *description.camera;
   for (int k = 0; k < 3; ++k) camera.toWorld[3][k] = float(camera.toWorld[3][k] - origin[k]);
@@ -87,20 +90,32 @@ bool Scene::visible(const SurfaceInteraction& si, const LightSample& light) cons
   return !occluded(ray);
 }
 
-DirectSample Scene::sampleDirect(const Vec3& p, float uLight, const Vec2& u) const noexcept {
-  if (m_data->selection.empty()) return {};
-  const LightSelection::Choice choice = m_data->selection.sample(refine(uLight, u));
-  DirectSample sample{choice.light->sampleDirect(p, choice.remainder, u), choice.light->isDelta()};
+LightReceiver Scene::receiver(const SurfaceInteraction& si) const noexcept {
+  if (!m_data->environment) return si.p;
+  return {si.p, m_data->environmentLeftToBsdf ? kOtherLights : m_data->environment->densityFor(si)};
+}
+
+DirectSample Scene::sampleDirect(const LightReceiver& receiver, float uLight, const Vec2& u) const noexcept {
+  const LightSelection& lights = receiver.density == kOtherLights ? m_data->otherLights : m_data->selection;
+  if (lights.empty()) return {};
+  const LightSelection::Choice choice = lights.sample(refine(uLight, u));
+  DirectSample sample{choice.light == m_data->environment ? m_data->environment->sample(receiver.density, u)
+                                                          : choice.light->sampleDirect(receiver.p, choice.remainder, u),
+                      choice.light->isDelta()};
   sample.pdf *= choice.pmf;
   return sample;
 }
 
-float Scene::pdfDirect(const Vec3& p, const SurfaceInteraction& hit) const noexcept {
-  return hit.light ? m_data->surfaces[hit.shape].lightPmf * hit.light->pdfDirect(p, hit) : 0;
+float Scene::pdfDirect(const LightReceiver& receiver, const SurfaceInteraction& hit) const noexcept {
+  if (!hit.light) return 0;
+  const float pmf = m_data->surfaces[hit.shape].lightPmf;
+  return (receiver.density == kOtherLights ? pmf * m_data->otherLightsFactor : pmf) *
+         hit.light->pdfDirect(receiver.p, hit);
 }
 
-float Scene::pdfEnvironment(const Vec3& wi) const noexcept {
-  return m_data->environment ? m_data->environmentPmf * m_data->environment->pdfFrom(wi) : 0;
+float Scene::pdfEnvironment(const LightReceiver& receiver, const Vec3& wi) const noexcept {
+  if (!m_data->environment || receiver.density == kOtherLights) return 0;
+  return m_data->environmentPmf * m_data->environment->pdfFrom(receiver.density, wi);
 }
 
 const EnvironmentLight* Scene::environment() const noexcept {

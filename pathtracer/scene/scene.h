@@ -17,6 +17,7 @@ namespace pt {
 /// What the scene contains; everything absent is left out at no cost.
 struct SceneFeatures {
   bool hasSampleableLights = false;  ///< something for light sampling to find
+  bool hasLightsToWeigh = false;     ///< the same, where sampling the BSDF alone would not do better
   bool hasEnvironment = false;
   bool hasSmoothMaterials = false;  ///< something for guiding to learn
   bool hasTextures = false;
@@ -59,12 +60,15 @@ class Scene {
   /// Whether light sampled from `si` arrives.
   bool visible(const SurfaceInteraction& si, const LightSample& light) const noexcept;
 
+  /// For light sampling at `si` that is weighted against sampling the BSDF there.
+  LightReceiver receiver(const SurfaceInteraction& si) const noexcept;
+
   /// Chooses a light by power and samples it. u in [0,1)^2. pdf 0: no sample.
-  DirectSample sampleDirect(const Vec3& p, float uLight, const Vec2& u) const noexcept;
-  /// Density of sampleDirect for the emitter that a ray from `p` met at `hit`.
-  float pdfDirect(const Vec3& p, const SurfaceInteraction& hit) const noexcept;
-  /// Density of sampleDirect for a ray that left the scene towards wi.
-  float pdfEnvironment(const Vec3& wi) const noexcept;
+  DirectSample sampleDirect(const LightReceiver& receiver, float uLight, const Vec2& u) const noexcept;
+  /// Density of sampleDirect for the emitter that a ray from the receiver met at `hit`.
+  float pdfDirect(const LightReceiver& receiver, const SurfaceInteraction& hit) const noexcept;
+  /// Density of sampleDirect for a ray from the receiver that left the scene towards wi.
+  float pdfEnvironment(const LightReceiver& receiver, const Vec3& wi) const noexcept;
 
   /// Null without an environment.
   const EnvironmentLight* environment() const noexcept;

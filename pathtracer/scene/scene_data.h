@@ -31,9 +31,15 @@ struct SceneData {
 
   std::vector<std::unique_ptr<Light>> lights;
   LightSelection selection;
-  const EnvironmentLight* environment = nullptr;
+  EnvironmentLight* environment = nullptr;
   float environmentPmf = 0;
+  EnvironmentSampling environmentSampling;
   std::size_t environmentTexels = 0, environmentTableBytes = 0;  ///< 0 for a constant environment
+  /// Estimates that are weighted against BSDF sampling choose among the other lights alone: nothing is left of the
+  /// environment that light sampling does better.
+  bool environmentLeftToBsdf = false;
+  LightSelection otherLights;   ///< set if environmentLeftToBsdf
+  float otherLightsFactor = 1;  ///< of their probabilities in `selection`
 
   std::size_t degenerateTriangles = 0;
   std::size_t blackEmitters = 0;

@@ -55,6 +55,8 @@ enum class TextureWrap { Repeat, Mirror, Clamp, Black };
 
 struct BitmapTexture {
   std::filesystem::path file;
+  std::shared_ptr<const std::string> bytes =
+      nullptr;  ///< of the picture, where it lies within another file; `file` is its name
   TextureEncoding encoding = TextureEncoding::Srgb;
   TextureChannel channel = TextureChannel::Color;
   TextureFilter filter = TextureFilter::Bilinear;
@@ -127,6 +129,7 @@ struct NullMaterial {};
 struct MaskMaterial {
   int material = kNone;
   FloatParameter opacity{0.5f};
+  std::optional<float> cutoff = std::nullopt;  ///< opacities below it count as 0, the others as 1
 };
 
 /// The first material's share is 1 - weight.
@@ -258,6 +261,20 @@ struct EnvironmentMap {
   Matrix4 toWorld;  ///< a rotation, perhaps mirrored or scaled
   float scale = 1;  ///< of the radiance
 };
+/// How the density by which light sampling goes is sharpened where it is weighted against BSDF sampling.
+enum class EnvironmentForm {
+  Plain,         ///< not at all
+  Mean,          ///< the mean is subtracted: guiding::EnvironmentCompensation::SubtractMean
+  WaterFilling,  ///< guiding::EnvironmentCompensation::WaterFilling
+  Normal,  ///< an amount by the normal is subtracted, the rest multiplied by the cosine: guiding::EnvironmentByNormal
+};
+struct EnvironmentSampling {
+  EnvironmentForm form = EnvironmentForm::Normal;
+  /// Share of light samples that is assumed, in (0, 1); 0: what the path tracer does, one sample of one light, chosen
+  /// by power, beside one of the BSDF.
+  float lightShare = 0;
+};
+
 struct LightDescription {
   std::variant<PointLight, SpotLight, DirectionalLight, ConstantEnvironment, EnvironmentMap> kind;
   SourceLocation source;
@@ -315,6 +332,7 @@ struct SceneDescription {
   std::vector<ShapeDescription> shapes;
   std::vector<GroupDescription> groups;
   std::vector<LightDescription> lights;
+  EnvironmentSampling environmentSampling;
   std::vector<std::string> skipped;  ///< what --skip-unsupported left out, with its place
   std::vector<std::string> notes;    ///< choices the loader made that its user should know
 };

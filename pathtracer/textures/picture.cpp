@@ -6,10 +6,24 @@
 
 namespace pt {
 
+namespace {
+
+/// A name whose ending tells the format.
+std::string nameByContent(const std::string& bytes) {
+  return bytes.starts_with("\x89PNG") ? "embedded.png" : bytes.starts_with("\xff\xd8") ? "embedded.jpg" : "embedded";
+}
+
+}  // namespace
+
 PictureFile::PictureFile(const PictureKey& key) : m_key(key) {
   OIIO::ImageSpec config;
   config["oiio:UnassociatedAlpha"] = 1;  // colours as they were painted
-  m_input = OIIO::ImageInput::open(key.file.string(), &config);
+  if (key.bytes) {
+    m_bytes = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<char*>(key.bytes->data()), key.bytes->size());
+    void* const proxy = m_bytes.get();
+    config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  }
+  m_input = OIIO::ImageInput::open(key.bytes ? nameByContent(*key.bytes) : key.file.string(), &config);
   if (!m_input) {
     std::string reason = OIIO::geterror();
     reason.erase(std::find(reason.begin(), reason.end(), '\n'), reason.end());

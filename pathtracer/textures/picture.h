@@ -1,9 +1,11 @@
 #pragma once
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "scene/scene_description.h"
@@ -14,6 +16,7 @@ namespace pt {
 /// Which texels of which file; textures that ask for the same share them.
 struct PictureKey {
   std::filesystem::path file;
+  std::shared_ptr<const std::string> bytes;  ///< of the file, if they are at hand
   TextureEncoding encoding = TextureEncoding::Srgb;
   TextureChannel channel = TextureChannel::Color;
   bool mipMapped = false;
@@ -28,6 +31,8 @@ class PictureFile {
   explicit PictureFile(const PictureKey& key);
 
   const PictureKey& key() const { return m_key; }
+  /// Whether it can be opened again by its name.
+  bool isFile() const { return m_key.bytes == nullptr; }
   int width() const { return m_spec.width; }
   int height() const { return m_spec.height; }
   int firstChannel() const { return m_firstChannel; }
@@ -53,6 +58,7 @@ class PictureFile {
   void chooseChannels();
 
   PictureKey m_key;
+  std::unique_ptr<OIIO::Filesystem::IOProxy> m_bytes;  ///< read by m_input
   std::unique_ptr<OIIO::ImageInput> m_input;
   OIIO::ImageSpec m_spec;
   int m_firstChannel = 0, m_channels = 3;

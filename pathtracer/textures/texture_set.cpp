@@ -29,7 +29,7 @@ struct Picture {
 };
 
 PictureKey keyOf(const BitmapTexture& bitmap) {
-  return {bitmap.file, bitmap.encoding, bitmap.channel, bitmap.filter == TextureFilter::Trilinear};
+  return {bitmap.file, bitmap.bytes, bitmap.encoding, bitmap.channel, bitmap.filter == TextureFilter::Trilinear};
 }
 
 template <class Texels, class... Arguments>
@@ -94,11 +94,12 @@ std::shared_ptr<const TileCache> shareMemory(Pictures& pictures, std::size_t lim
   bool someCached = false;
   for (auto& [key, picture] : pictures) {
     const std::size_t bytes = picture.file->memoryBytes();
-    picture.isCached = bytes > limit - used;
+    picture.isCached = bytes > limit - std::min(used, limit) && picture.file->isFile();
     someCached |= picture.isCached;
     if (!picture.isCached) used += bytes;
   }
-  return someCached ? std::make_shared<const TileCache>(std::max(limit - used, kLeastCacheBytes)) : nullptr;
+  return someCached ? std::make_shared<const TileCache>(std::max(limit - std::min(used, limit), kLeastCacheBytes))
+                    : nullptr;
 }
 
 UvMap uvMapOf(const TextureDescription& texture) {

@@ -111,6 +111,13 @@ TEST_CASE("a broken plan gives one line with the JSON pointer") {
     plan["variants"][1]["direct"] = {{"samples", 1}};
     CHECK(complaint(plan) == "#/variants/1/direct: samples must lie in [2, 4096]");
   }
+  SECTION("environment") {
+    plan["variants"][1]["environment"] = "means";
+    CHECK(complaint(plan) == "#/variants/1/environment: 'means' is no choice here; did you mean 'mean'?");
+    plan["variants"][1]["environment"] = "mean";
+    plan["variants"][1]["lightShare"] = 2;
+    CHECK(complaint(plan) == "#/variants/1/lightShare: 2 lies outside [0.01, 0.99]");
+  }
   SECTION("names") {
     plan["variants"][1]["name"] = "path";
     CHECK(complaint(plan) == "#/variants/1/name: the name 'path' is taken already");

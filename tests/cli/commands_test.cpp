@@ -9,7 +9,7 @@ using nlohmann::json;
 
 TEST_CASE("help and version are no errors", "[cli]") {
   const Workspace space;
-  for (const char* command : {"render", "train", "info", "compare"}) {
+  for (const char* command : {"render", "train", "info", "compare", "compensate-envmap"}) {
     const Outcome outcome = space.run({command, "--help"});
     CHECK(outcome.status == 0);
     CHECK(outcome.err.empty());
@@ -32,6 +32,40 @@ TEST_CASE("info describes a scene to people and to scripts", "[cli]") {
   CHECK(info["triangles"] == 2);
   CHECK(info["lights"] == 1);
   CHECK_FALSE(info["leftOut"].empty());
+}
+
+TEST_CASE("compensate-envmap writes a map, a report and a picture of both densities", "[cli]") {
+  const Workspace space;
+  space.write("sky.json", R"({"width": 64, "zenith": 1, "horizon": 1, "ground": 0.2,
+                              "lamps": [{"direction": [1, 1, 0], "degrees": 12, "radiance": 500}]})");
+  for (const char* form : {"mean", "waterfill", "half"}) {
+    const Outcome outcome = space.run({"compensate-envmap", "sky.json", "-o", "out.exr", "--form", form});
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK_THAT(outcome.out, Contains("times less variance"));
+    CHECK(space.has("out.exr"));
+    CHECK(space.has("out.png"));
+    const json report = json::parse(space.read("out.report.json"));
+    CHECK(report["form"] == form);
+    CHECK(report["width"] == 64);
+    CHECK(report["removedMass"] > 0.1);
+    CHECK(report["removedMass"] < 0.5);
+    CHECK(report["predictedGain"] > 1.2);
+  }
+  // What comes out serves as a map: the sun alone is left.
+  space.write("lit.json", sceneWith("\"lights\": [{\"type\": \"constant\", \"radiance\": 2}]",
+                                    R"("lights": [{"type": "environment", "file": "out.exr"}])"));
+  CHECK(space.run({"render", "lit.json", "--spp", "4"}).status == 0);
+
+  space.write("even.json", R"({"width": 16, "zenith": 1, "horizon": 1, "ground": 1})");
+  const Outcome even = space.run({"compensate-envmap", "even.json", "-o", "even.exr"});
+  CHECK(even.status == 2);
+  CHECK_THAT(even.err, Contains("even.json: the map is black or nearly constant"));
+  CHECK_FALSE(space.has("even.exr"));
+  CHECK_THAT(space.run({"compensate-envmap", "no.hdr", "-o", "out.exr"}).err, Contains("no.hdr"));
+  CHECK(space.run({"compensate-envmap", "sky.json", "-o", "out.png"}).status == 2);
+  CHECK(space.run({"compensate-envmap", "out.exr", "-o", "out.exr"}).status == 2);
+  CHECK(space.run({"compensate-envmap", "sky.json", "-o", "out.exr", "--share", "1.5"}).status == 2);
 }
 
 TEST_CASE("compare prints each measure and writes the error picture", "[cli]") {

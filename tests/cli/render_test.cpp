@@ -67,6 +67,38 @@ TEST_CASE("guiding presets and compensation are what was asked for", "[cli]") {
   CHECK(guiding({"--guiding", "g.json", "--compensation", "none"})["field"]["compensation"]["form"] == "none");
 }
 
+TEST_CASE("the environment's sampling is what was asked for", "[cli]") {
+  const Workspace space;
+  space.write("wall.json", kScene);
+  space.write("sky.json",
+              R"({"width": 32, "zenith": 1, "lamps": [{"direction": [0, 1, 1], "degrees": 20, "radiance": 50}]})");
+  const auto sampling = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"render", "wall.json", "--environment-map", "sky.json",
+                                       "--spp",  "2",         "--report",          "r.json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = space.run(arguments);
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const json report = json::parse(space.read("r.json"));
+    CHECK_THAT(report["scene"]["present"].dump(), Contains("environment map"));
+    return report["scene"]["environmentSampling"];
+  };
+  CHECK(sampling({}) == json{{"form", "mean"}, {"lightShare", "automatic"}});
+  for (const char* form : {"plain", "mean", "waterfill", "normal"})
+    CHECK(sampling({"--environment", form})["form"] == form);
+  CHECK(sampling({"--environment", "mean:0.25"})["lightShare"] == 0.25);
+  for (const char* heuristic : {"balance", "power", "cutoff", "maximum"})
+    CHECK(space.run({"render", "wall.json", "--spp", "2", "--heuristic", heuristic}).status == 0);
+  const auto complaint = [&](const std::string& text) {
+    const Outcome outcome = space.run({"render", "wall.json", "--environment", text});
+    CHECK(outcome.status == 2);
+    return outcome.err;
+  };
+  CHECK_THAT(complaint("means"), Contains("--environment means: no such form; did you mean 'mean'?"));
+  CHECK_THAT(complaint("mean:2"), Contains("the share must lie between 0 and 1"));
+  CHECK_THAT(space.run({"render", "wall.json", "--environment-map", "no.exr"}).err, Contains("no.exr"));
+}
+
 TEST_CASE("a picture is the same on any number of threads, and another for another seed", "[cli]") {
   const Workspace space;
   space.write("wall.json", kScene);
@@ -136,4 +168,25 @@ TEST_CASE("train, info and render --field belong together", "[cli]") {
   CHECK(report["counters"]["guidedShare"] > 0.5);
   REQUIRE(space.run({"render", "wall.json", "--spp", "30", "--save-field", "s.field"}).status == 0);
   CHECK(space.run({"info", "s.field"}).status == 0);
+}
+
+TEST_CASE("a glTF file without camera and light renders, and what was added is said", "[cli]") {
+  const Workspace space;
+  // One triangle: (0,0,0), (1,0,0), (0,1,0).
+  space.write("model.gltf",
+              R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0,0,0], "max": [1,1,0]}]})");
+  const Outcome outcome = space.run({"render", "model.gltf", "--spp", "4", "--resolution", "16x16"});
+  INFO(outcome.err);
+  CHECK(outcome.status == 0);
+  CHECK(space.has("model.exr"));
+  CHECK_THAT(outcome.err, Contains("note: model.gltf: has no camera") && Contains("note: model.gltf: has no light"));
+  CHECK_THAT(space.run({"info", "model.gltf"}).out, Contains("1 triangles"));
+  space.write("broken.glb", "glTF");
+  const Outcome broken = space.run({"render", "broken.glb"});
+  CHECK(broken.status == 2);
+  CHECK_THAT(broken.err, Contains("broken.glb: is no glTF binary"));
 }

@@ -60,10 +60,18 @@ class EnvironmentTable {
 
   /// Draws a unit direction in the space of the map; the density is that of the very float direction returned. Nearby u
   /// give nearby directions. u in [0,1)^2. pdf 0: no sample.
-  DirectionSample sample(const Imath::V2f& u) const noexcept;
+  DirectionSample sample(const Imath::V2f& u) const noexcept {
+    const Imath::V3f wi = draw(u);
+    return {wi, pdf(wi)};
+  }
 
   /// Density of a unit direction per solid angle.
-  float pdf(const Imath::V3f& direction) const noexcept;
+  float pdf(const Imath::V3f& direction) const noexcept { return pdf(m_layout.locate(direction)); }
+
+  /// The same in two steps, for a host that turns directions or looks up radiance at the same point: a direction, and
+  /// the density of one. Empty tables return any direction.
+  Imath::V3f draw(const Imath::V2f& u) const noexcept;
+  float pdf(const EnvironmentPoint& point) const noexcept;
 
   const EnvironmentLayout& layout() const noexcept { return m_layout; }
   const EnvironmentSharpening& sharpening() const noexcept { return m_sharpening; }
@@ -74,14 +82,26 @@ class EnvironmentTable {
       : m_layout(layout), m_sharpening(sharpening) {}
   void build(std::span<const float> luminance);
 
+  friend class EnvironmentProduct;
+  /// Patches of the grid, the ends excluded.
+  struct Patches {
+    int x0, x1, y0, y1;
+  };
+  Patches allPatches() const noexcept;
+  /// Draws among some patches only. marginal[y]: what the rows of patches before y weigh, within x0 and x1.
+  Imath::V3f draw(const Patches& among, const double* marginal, const Imath::V2f& u) const noexcept;
+  /// Integral of a row of patches from x0 to x1.
+  double rowMass(int y, int x0, int x1) const noexcept;
+
   EnvironmentLayout m_layout;
   EnvironmentSharpening m_sharpening;
   // A grid of vertices, those inside the picture at the middles of texels; the density on the picture is bilinear
   // between them.
-  std::size_t m_columns = 0;         ///< vertices in a row
-  std::vector<float> m_density;      ///< per area of the picture
-  std::vector<float> m_conditional;  ///< integral of each row of vertices from the left edge to every vertex
-  std::vector<float> m_marginal;     ///< integral of the density from the top edge to every row
+  std::size_t m_columns = 0;     ///< vertices in a row
+  std::vector<float> m_density;  ///< per area of the picture
+  // Sums of very unequal numbers, of which differences are taken.
+  std::vector<double> m_conditional;  ///< integral of each row of vertices from the left edge to every vertex
+  std::vector<double> m_marginal;     ///< integral of the density from the top edge to every row
 };
 
 }  // namespace guiding

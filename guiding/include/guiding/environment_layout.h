@@ -21,6 +21,12 @@ struct EnvironmentFootprint {
   std::array<float, 4> weights;         ///< add up to 1
 };
 
+/// Where a direction is seen in a picture.
+struct EnvironmentPoint {
+  Imath::V2f uv;
+  float areaPerSolidAngle;  ///< of the picture; 0 on the poles of a latitude-longitude map
+};
+
 /// A picture of the sphere: which texels are seen in which direction. Bilinear interpolation goes on across the
 /// picture's edges to what is next to them on the sphere; next to the poles of LatLong it stops at the outermost row.
 class EnvironmentLayout {
@@ -36,7 +42,8 @@ class EnvironmentLayout {
 
   /// Picture coordinates of a unit direction, to about 2e-7.
   Imath::V2f toPicture(const Imath::V3f& direction) const noexcept;
-  /// Its inverse.
+  EnvironmentPoint locate(const Imath::V3f& direction) const noexcept;
+  /// Inverse of toPicture().
   Imath::V3f toDirection(const Imath::V2f& uv) const noexcept;
 
   EnvironmentFootprint footprint(const Imath::V2f& uv) const noexcept;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "guiding/settings.h"
@@ -41,6 +42,38 @@ inline float powerHeuristic(float nA, float pdfA, float nB, float pdfB) noexcept
   if (!(a > 0)) return 0.0f;
   const float r = b / a;  // the ratio first: squares of large densities overflow
   return 1 / (1 + r * r);
+}
+
+/// How techniques that could have drawn the same direction share it [Veach & Guibas 1995].
+enum class MisHeuristic {
+  Balance,  ///< in proportion to their products: never far from the best weights that are not negative, and in
+            ///< one-sample MIS the best
+  Power,    ///< in proportion to their squares
+  Cutoff,   ///< those below a tenth of the largest get nothing, the others share as in Balance
+  Maximum,  ///< the largest gets all
+};
+
+/// Weight of a technique for a direction, from the product of every technique that could have drawn it. Products are
+/// n p in multi-sample MIS, where a technique draws n samples and the estimate is the sum of all w f / (n p); and c p
+/// in one-sample MIS, where one technique is chosen with probability c and the estimate is w f / (c p). The weights of
+/// all techniques add up to 1, equal ones are equal, and a product of 0 has weight 0.
+float misWeight(MisHeuristic heuristic, std::span<const float> products, std::size_t own) noexcept;
+
+/// The same for two techniques.
+inline float misWeight(MisHeuristic heuristic, float own, float other) noexcept {
+  constexpr float kCutoff = 0.1f;
+  if (!(own > 0)) return 0;
+  switch (heuristic) {
+    case MisHeuristic::Power:
+      return powerHeuristic(1, own, 1, other);
+    case MisHeuristic::Cutoff:
+      if (own < kCutoff * other) return 0;
+      return other < kCutoff * own ? 1 : balanceHeuristic(1, own, 1, other);
+    case MisHeuristic::Maximum:
+      return own > other ? 1.0f : own < other ? 0.0f : 0.5f;
+    default:
+      return balanceHeuristic(1, own, 1, other);
+  }
 }
 
 }  // namespace guiding

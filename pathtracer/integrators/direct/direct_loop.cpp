@@ -22,11 +22,6 @@ namespace {
 /// Samples of each technique that one draw has, or is expected to have.
 using Counts = std::array<float, 2>;
 
-float weightOf(MisHeuristic heuristic, float density, float otherDensity) noexcept {
-  return heuristic == MisHeuristic::Power ? guiding::powerHeuristic(1, density, 1, otherDensity)
-                                          : guiding::balanceHeuristic(1, density, 1, otherDensity);
-}
-
 /// What a pixel knows for optimal weights.
 struct PixelWeights {
   OptimalWeights sums;
@@ -78,7 +73,7 @@ DirectLoop<Rule>::DirectLoop(const Scene& scene, const RenderSettings& settings,
       m_direct(*settings.direct),
       m_path(settings.path),
       m_heuristic(settings.heuristic),
-      m_samplesLights(settings.nee && scene.features().hasSampleableLights),
+      m_samplesLights(settings.nee && scene.features().hasLightsToWeigh),
       m_width(std::size_t(settings.width)) {
   if (!m_samplesLights) return;
   const std::size_t pixels = m_width * std::size_t(settings.height);
@@ -162,7 +157,8 @@ Color3d DirectLoop<Rule>::shared(const SurfaceInteraction& si, const SurfaceBsdf
       weights->sums.add(Color3d(draw.value), pdf, invDensity);
     } else {
       const std::size_t own = isBsdf ? kBsdfSampling : kLightSampling;
-      sum += Color3d(draw.value * (weightOf(m_heuristic, densities[own], densities[1 - own]) / densities[own]));
+      sum +=
+          Color3d(draw.value * (guiding::misWeight(m_heuristic, densities[own], densities[1 - own]) / densities[own]));
     }
     pixel.rule.add({double(luminance(draw.value)), pdf, invDensity});
   }

@@ -33,7 +33,8 @@ TechniqueDraw DirectTechniques::drawBsdf(const SurfaceInteraction& si, const Sur
   if (isBlack(emitted)) return nothing;
   if (m_hasMedia) emitted *= transmittance(si, draw.wi, meets ? hit.distance : std::numeric_limits<float>::infinity());
   if (draw.isDelta || !knowsLights) return {draw.weight * emitted, kBsdfAlone};
-  const float lightPdf = meets ? m_scene.pdfDirect(si.p, hit) : m_scene.pdfEnvironment(draw.wi);
+  const LightReceiver receiver = m_scene.receiver(si);
+  const float lightPdf = meets ? m_scene.pdfDirect(receiver, hit) : m_scene.pdfEnvironment(receiver, draw.wi);
   return {draw.weight * draw.pdf * emitted, {draw.pdf, lightPdf}};
 }
 
@@ -41,7 +42,7 @@ TechniqueDraw DirectTechniques::drawLight(const SurfaceInteraction& si, const Su
                                           RenderCounters& counters) const noexcept {
   const TechniqueDraw nothing{Spectrum(0.0f), kLightAlone};
   const float uLight = sampler.next1D();
-  const DirectSample light = m_scene.sampleDirect(si.p, uLight, sampler.next2D());
+  const DirectSample light = m_scene.sampleDirect(m_scene.receiver(si), uLight, sampler.next2D());
   if (!(light.pdf > 0) || isBlack(light.radiance)) return nothing;
   const BsdfEvaluation f = bsdf.evaluate(light.wi);
   if (isBlack(f.bsdfCos)) return nothing;

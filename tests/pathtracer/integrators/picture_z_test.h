@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,8 +40,7 @@ struct PictureZTest {
 /// Tests each channel of each pixel at a level such that all of them pass with probability 0.99 [Sidak 1967] if the
 /// means are equal. Passed if 99.75% do: the few others are left to fireflies, whose variance a finite number of
 /// samples does not show. `leftOut` pixels are not compared.
-PictureZTest zTestPicture(const NoisyPicture& ours, const ReferencePicture& reference,
-                          const std::function<bool(int x, int y)>& leftOut = {});
+PictureZTest zTestPicture(const NoisyPicture& ours, const ReferencePicture& reference);
 
 /// Writes name-ours.exr, name-reference.exr, name-failed.exr and name-z.exr; returns the folder.
 std::filesystem::path writeErrorPictures(const std::string& name, const NoisyPicture& ours,

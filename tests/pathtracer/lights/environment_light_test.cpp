@@ -1,41 +1,19 @@
-#include <functional>
-
 #include "catch.h"
 #include "core/error.h"
 #include "core/warp.h"
-#include "film/film.h"
-#include "light_fixture.h"
+#include "environment_fixture.h"
 #include "statistics/chi_square.h"
 #include "statistics/random.h"
 #include "statistics/z_test.h"
 
 using namespace pt;
+using test::mapOf;
+using test::sky;
+using test::under;
 
 namespace {
 
-/// A coloured sky with a sun.
-Spectrum sky(const Vec3& w) {
-  const float sun = 500 * std::exp(300 * (w.dot(Vec3(0.6f, 0.64f, 0.48f)) - 1));
-  return Spectrum(0.4f + sun, 0.6f + 0.3f * w.y + sun, 1 + 0.5f * w.x + 0.8f * sun);
-}
-
-EnvironmentMap mapOf(const std::function<Spectrum(const Vec3&)>& radiance, int width = 64, int height = 32) {
-  EnvironmentMap map;
-  auto image = std::make_shared<Image>(width, height);
-  const guiding::EnvironmentLayout layout(map.mapping, width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      image->at(x, y) =
-          radiance(layout.toDirection({(float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(height)}));
-  map.image = image;
-  return map;
-}
-
-SceneDescription under(const EnvironmentMap& map) {
-  SceneDescription description = test::emptyScene();
-  description.lights.push_back({map, "test"});
-  return description;
-}
+const Vec3 kOrigin(0, 0, 0);
 
 std::string errorOf(const SceneDescription& description) {
   try {
@@ -48,7 +26,7 @@ std::string errorOf(const SceneDescription& description) {
 
 DirectSample sample(const Scene& scene, test::Random& random) {
   const float uLight = random.next1D();
-  return scene.sampleDirect({0, 0, 0}, uLight, random.next2D());
+  return scene.sampleDirect(kOrigin, uLight, random.next2D());
 }
 
 }  // namespace
@@ -62,12 +40,13 @@ TEST_CASE("Samples of a turned environment map follow their density") {
     if (!(s.pdf > 0)) return std::nullopt;
     return s.wi;
   };
-  const auto result =
-      test::chiSquareOnSphere(draw, [&](const Vec3& w) { return scene.pdfEnvironment(w); }, {.resolution = 31});
+  const auto result = test::chiSquareOnSphere(draw, [&](const Vec3& w) { return scene.pdfEnvironment(kOrigin, w); },
+                                              {.resolution = 31});
   INFO(result.message);
   CHECK(result);
   CHECK_FALSE(test::chiSquareOnSphere(
-      draw, [&](const Vec3& w) { return scene.pdfEnvironment(w) * (w.x > 0 ? 1.05 : 0.95); }, {.resolution = 31}));
+      draw, [&](const Vec3& w) { return scene.pdfEnvironment(kOrigin, w) * (w.x > 0 ? 1.05 : 0.95); },
+      {.resolution = 31}));
 }
 
 TEST_CASE("A sample of an environment map carries the radiance and the density of its direction") {
@@ -79,7 +58,7 @@ TEST_CASE("A sample of an environment map carries the radiance and the density o
   for (int i = 0; i < 20'000; ++i) {
     const DirectSample s = sample(scene, random);
     REQUIRE(s.pdf > 0);
-    REQUIRE(s.pdf == scene.pdfEnvironment(s.wi));
+    REQUIRE(s.pdf == scene.pdfEnvironment(kOrigin, s.wi));
     REQUIRE(s.radiance == scene.environment()->radianceFrom(s.wi));
     REQUIRE(std::isinf(s.distance));
     const Vec3 onMap = s.wi * test::skewed().transposed();
@@ -100,7 +79,7 @@ TEST_CASE("Wherever an environment map shines, light sampling may find it") {
     const Vec3 w = squareToUniformSphere(random.next2D());
     if (luminance(scene.environment()->radianceFrom(w)) < 1e-5f) continue;
     ++lit;
-    REQUIRE(scene.pdfEnvironment(w) > 0);
+    REQUIRE(scene.pdfEnvironment(kOrigin, w) > 0);
   }
   CHECK(lit > 5000);
 }

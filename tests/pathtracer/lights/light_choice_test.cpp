@@ -24,7 +24,7 @@ TEST_CASE("Lights are chosen in proportion to their power, also very dim ones") 
   test::Random random(1);
   test::RunningMean dim;
   for (int i = 0; i < 2'000'000; ++i)
-    dim.add(scene.sampleDirect({0, 0, 0}, random.next1D(), random.next2D()).wi.x > 0 ? 1 : 0);
+    dim.add(scene.sampleDirect(Vec3(0, 0, 0), random.next1D(), random.next2D()).wi.x > 0 ? 1 : 0);
   const auto result = test::zTest(dim, kDim / (1 + kDim));
   INFO(result.message);
   CHECK(result);
@@ -37,16 +37,16 @@ TEST_CASE("The density of a sample includes the choice of its light") {
   const Vec3 direction = Vec3(5, 0, -10).normalized();
   REQUIRE(both.intersect({{0, 0, 0}, direction}, si));
   CHECK(si.light != nullptr);
-  const float pdf = both.pdfDirect({0, 0, 0}, si);
+  const float pdf = both.pdfDirect(Vec3(0, 0, 0), si);
   REQUIRE(alone.intersect({{0, 0, 0}, direction}, si));
-  CHECK(pdf == Approx(0.75 * alone.pdfDirect({0, 0, 0}, si)));
+  CHECK(pdf == Approx(0.75 * alone.pdfDirect(Vec3(0, 0, 0), si)));
 }
 
 TEST_CASE("Radiance over sixty orders of magnitude leaves choices finite") {
   const Scene scene(twoSquares(1e30f, 1e-30f));
   test::Random random(1);
   for (int i = 0; i < 1000; ++i) {
-    const auto sample = scene.sampleDirect({0, 0, 0}, random.next1D(), random.next2D());
+    const auto sample = scene.sampleDirect(Vec3(0, 0, 0), random.next1D(), random.next2D());
     REQUIRE(std::isfinite(sample.pdf));
     REQUIRE(sample.radiance.x == 1e30f);
   }

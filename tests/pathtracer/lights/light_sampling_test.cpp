@@ -11,7 +11,7 @@ namespace {
 /// Density of light sampling for the light that a ray from p in direction wi meets.
 double pdfTowards(const Scene& scene, const Vec3& p, const Vec3& wi) {
   SurfaceInteraction si;
-  if (!scene.intersect({p, wi}, si)) return scene.pdfEnvironment(wi);
+  if (!scene.intersect({p, wi}, si)) return scene.pdfEnvironment(p, wi);
   if (!si.light || isBlack(si.light->radiance(si, si.wo))) return 0;
   return scene.pdfDirect(p, si);
 }

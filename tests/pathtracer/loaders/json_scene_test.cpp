@@ -1,4 +1,8 @@
+#include <cmath>
+
+#include "film/image_io.h"
 #include "loader_fixture.h"
+#include "loaders/environment_file.h"
 
 using namespace pt;
 using namespace pt::test;
@@ -36,6 +40,60 @@ TEST_CASE("an empty scene has the documented defaults") {
   REQUIRE(camera);
   CHECK(camera->fovDegrees == 45);
   CHECK(camera->fovAxis == FovAxis::X);
+}
+
+TEST_CASE("environment maps from pictures and from descriptions") {
+  SceneFolder folder;
+  Image image(4, 4);
+  image.at(1, 2) = Spectrum(3.0f);
+  writeExr(folder.path() / "map.exr", image);
+  const auto scene = folder.load("scene.json", R"({"lights": [
+    {"type": "environment", "file": "map.exr", "mapping": "octahedral", "scale": 2, "transform": {"translate": [1, 2, 3]}}]})");
+  const auto& map = std::get<EnvironmentMap>(scene.lights.at(0).kind);
+  CHECK(map.mapping == guiding::EnvironmentMapping::Octahedral);
+  CHECK(map.scale == 2);
+  CHECK(map.image->at(1, 2) == Spectrum(3.0f));
+
+  folder.write("studio.json", R"({"width": 128, "zenith": 3, "horizon": 1, "ground": [0.5, 0, 0], "lamps": [
+    {"direction": [0, 0, -1], "degrees": 20, "radiance": 100},
+    {"direction": [1, 0, 0], "degrees": [10, 40], "radiance": 10},
+    {"direction": [0, -0.6, 0.8], "degrees": 0.1, "radiance": 1e6}]})");
+  const auto painted = folder.load("scene.json", R"({"lights": [{"type": "environment", "file": "studio.json"}]})");
+  const auto& studio = std::get<EnvironmentMap>(painted.lights.at(0).kind);
+  const guiding::EnvironmentLayout layout(studio.mapping, 128, 64);
+  REQUIRE(studio.image->width == 128);
+  REQUIRE(studio.image->height == 64);
+  CHECK(studio.image->at(70, 0).x == Approx(3).epsilon(0.01));
+  CHECK(studio.image->at(70, 31).x == Approx(1).epsilon(0.06));
+  CHECK(isNear(studio.image->at(70, 63), Vec3(0.5f, 0, 0)));
+  CHECK(studio.image->at(0, 31).x > 100);  // the disk about -z
+  CHECK(studio.image->at(32, 31).x > 10);  // the rectangle about +x, 40 degrees high
+  CHECK(studio.image->at(32, 26).x > 10);
+  CHECK(studio.image->at(32, 23).x < 3);
+  CHECK(studio.image->at(36, 31).x < 2);
+  // Each lamp has its light, also the one that is smaller than a texel: as much as its solid angle says.
+  double sum = 0;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 128; ++x) sum += 4 * kPi * layout.texelShare(y) * studio.image->at(x, y).x;
+  const double tiny = 1e6 * 2 * kPi * (1 - std::cos(0.05 * kPi / 180)), disk = 100 * 2 * kPi * (1 - std::cos(kPi / 18));
+  const double box = 10 * 4 * std::asin(std::sin(kPi / 36) * std::sin(kPi / 9));
+  CHECK(sum == Approx(2 * kPi * 2 + 2 * kPi * 0.5 + tiny + disk + box).epsilon(1e-3));
+
+  const auto errorOf = [&](const std::string& text) {
+    folder.write("bad.json", text);
+    return folder.errorOf("scene.json", R"({"lights": [{"type": "environment", "file": "bad.json"}]})");
+  };
+  CHECK(errorOf(R"({"zenit": 1})") == "bad.json#/zenit: unknown key 'zenit'; did you mean 'zenith'?");
+  CHECK(errorOf(R"({"lamps": [{"direction": [0, 0, 0], "degrees": 1, "radiance": 1}]})") ==
+        "bad.json#/lamps/0/direction: must not be [0, 0, 0]");
+  CHECK(errorOf(R"({"lamps": [{"direction": [0, 1, 0], "degrees": 200, "radiance": 1}]})") ==
+        "bad.json#/lamps/0/degrees: must lie between 0 and 180 degrees");
+  CHECK(errorOf(R"({"width": 100000})") == "bad.json#: width and height must be at most 4096");
+
+  SceneDescription other = scene;
+  replaceEnvironment(other, folder.path() / "studio.json");
+  REQUIRE(other.lights.size() == 1);
+  CHECK(std::get<EnvironmentMap>(other.lights[0].kind).image->width == 128);
 }
 
 TEST_CASE("camera, film, integrator and sampler") {

@@ -23,8 +23,10 @@ TEST_CASE("the ending chooses the format, in either case") {
   CHECK(folder.load("B.JSON", "{}").name == "B");
   CHECK(folder.load("c.XML", mitsubaScene("")).name == "c");
   CHECK(folder.load("house/scene.json", "{}").name == "house");
-  CHECK(folder.errorOf("a.pbrt", "") == "a.pbrt: unknown kind of scene; .json (ours) and .xml (Mitsuba) are known");
-  CHECK(folder.errorOf("scene", "") == "scene: unknown kind of scene; .json (ours) and .xml (Mitsuba) are known");
+  CHECK(folder.errorOf("a.pbrt", "") ==
+        "a.pbrt: unknown kind of scene; .json (ours), .xml (Mitsuba), .gltf and .glb are known");
+  CHECK(folder.errorOf("scene", "") ==
+        "scene: unknown kind of scene; .json (ours), .xml (Mitsuba), .gltf and .glb are known");
 }
 
 TEST_CASE("files that are missing, folders or unreadable") {

@@ -120,10 +120,13 @@ TEST_CASE("shared: scenes with textures, masks and maps load whole") {
   }
 }
 
-TEST_CASE("shared: a scene that needs more than we have loads once that is skipped, and says what") {
-  const auto scene = loadShared("kitchen/kitchen.xml", {true, {}});
-  if (!scene) return;
-  REQUIRE(scene->skipped.size() == 1);
-  CHECK_THAT(scene->skipped[0], Catch::Contains("emitter 'sunsky' is not supported"));
-  CHECK_THROWS_AS(loadShared("kitchen/kitchen.xml"), InputError);
+TEST_CASE("shared: the kitchen with its sun and sky as an emitter is the one with them as a map") {
+  const auto daylight = loadShared("kitchen/kitchen.xml"), map = loadShared("kitchen/kitchen-envmap.xml");
+  if (!daylight || !map) return;
+  CHECK(daylight->skipped.empty());
+  CHECK(daylight->shapes.size() == map->shapes.size());
+  const auto& ours = std::get<EnvironmentMap>(daylight->lights.at(0).kind);
+  const auto& theirs = std::get<EnvironmentMap>(map->lights.at(0).kind);
+  CHECK(ours.mapping == theirs.mapping);
+  CHECK(isNear(apply(ours.toWorld, Vec3(1, 2, 3)), apply(theirs.toWorld, Vec3(1, 2, 3))));
 }

@@ -116,6 +116,13 @@ TEST_CASE("A mask lets light pass straight on where it is not opaque") {
   CHECK(passed.pdf == 0.75f);
   CHECK(!mask->sample(kSi, wo, 0.24f, {0.5f, 0.5f}).isDelta);
 
+  const BuiltMaterial cutOff(white, MaskMaterial{0, 0.25f, 0.3f}), left(white, MaskMaterial{0, 0.25f, 0.25f});
+  CHECK(cutOff->sample(kSi, wo, 0.01f, {0.5f, 0.5f}).weight.x == 1);
+  CHECK(cutOff->sample(kSi, wo, 0.01f, {0.5f, 0.5f}).isDelta);
+  CHECK(cutOff->evaluate(kSi, wo, wi).pdf == 0);
+  CHECK(!left->sample(kSi, wo, 0.99f, {0.5f, 0.5f}).isDelta);
+  CHECK(left->evaluate(kSi, wo, wi).bsdfCos.x == Approx(wi.z / kPi));
+
   CHECK(!BuiltMaterial(white, MaskMaterial{0, 0.0f})->traits().hasSmooth);
   CHECK_THROWS_WITH(BuiltMaterial(white, MaskMaterial{0, 1.5f}), Catch::Contains("opacity 1.5 must lie in [0, 1]"));
   const BsdfSample straight = BuiltMaterial(NullMaterial{})->sample(kSi, wo, 0.9f, {0.5f, 0.5f});

@@ -181,7 +181,7 @@ TEST_CASE("An empty scene has nothing to hit") {
   CHECK_FALSE(scene.intersect({{0, 0, 0}, {0, 0, 1}}, si));
   CHECK_FALSE(scene.occluded({{0, 0, 0}, {0, 0, 1}}));
   CHECK_FALSE(scene.features().hasSampleableLights);
-  CHECK(scene.sampleDirect({0, 0, 0}, 0.5f, {0.5f, 0.5f}).pdf == 0);
+  CHECK(scene.sampleDirect(Vec3(0, 0, 0), 0.5f, {0.5f, 0.5f}).pdf == 0);
   CHECK_FALSE(scene.bounds().isEmpty());
 }
 

@@ -1,6 +1,8 @@
 #include "textures/texture_set.h"
 
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 
 #include "catch.h"
 #include "core/error.h"
@@ -196,4 +198,27 @@ TEST_CASE("pictures that cannot be textures are input errors that name scene, fi
   CHECK_THAT(errorOf({.file = broken}), Catch::Contains("NaN or infinite"));
   std::filesystem::resize_file(opaque, std::filesystem::file_size(opaque) / 2);
   CHECK_THAT(errorOf({.file = opaque}), Catch::Contains("colors.png: "));
+}
+
+TEST_CASE("pictures within other files") {
+  PictureFolder folder;
+  for (const char* name : {"colors.png", "colors.jpg"}) {
+    CAPTURE(name);
+    const BitmapTexture file{.file = folder.write(name, 4, 2, 3, kColors)};
+    std::ifstream stream(file.file, std::ios::binary);
+    BitmapTexture embedded{.file = "model.glb#/images/0"};
+    embedded.bytes =
+        std::make_shared<std::string>(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    SceneDescription scene = sceneWith(file);
+    scene.textures.push_back({embedded, Matrix3(), "test#/textures/1"});
+    scene.textureMemoryBytes = 0;  // as if there were no room: there is no file to read tiles from
+    const TextureSet textures(scene);
+    for (const float x : {0.0f, 1.3f, 3.0f})
+      CHECK(isNear(textures.find(0)->color(middle(x, 1)), textures.find(1)->color(middle(x, 1))));
+    embedded.bytes = std::make_shared<std::string>(embedded.bytes->substr(0, embedded.bytes->size() / 2));
+    CHECK_THAT(errorOf(embedded), Catch::Contains("test#/textures/0: model.glb#/images/0: "));
+  }
+  BitmapTexture nonsense{.file = "model.glb#/images/0"};
+  nonsense.bytes = std::make_shared<std::string>("no picture");
+  CHECK_THAT(errorOf(nonsense), Catch::Contains("model.glb#/images/0: cannot be read as a picture"));
 }
