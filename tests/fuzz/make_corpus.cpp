@@ -1,10 +1,14 @@
 #include <guiding/serialize.h>
+#include <zlib.h>
 
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "film/image_io.h"
 
 /// Writes the seeds that fuzzing starts from: real small files, a folder for each target.
 namespace {
@@ -71,6 +75,97 @@ void writeMeshes(const fs::path& folder) {
   write(folder / "binary-ply", binary);
 }
 
+template <class T>
+void append(std::string& bytes, T value) {
+  char raw[sizeof(T)];
+  std::memcpy(raw, &value, sizeof(T));
+  bytes.append(raw, sizeof(T));
+}
+
+/// Mitsuba's compressed format: one triangle, version 4.
+void writeSerializedMesh(const fs::path& folder) {
+  std::string content;
+  append(content, std::uint32_t(0x1000));
+  content += std::string("t") + '\0';
+  append(content, std::uint64_t(3));
+  append(content, std::uint64_t(1));
+  for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) append(content, x);
+  for (const std::uint32_t i : {0, 1, 2}) append(content, i);
+  std::string packed(compressBound(uLong(content.size())), '\0');
+  uLongf size = packed.size();
+  if (compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(content.data()),
+               uLong(content.size())) != Z_OK)
+    std::abort();
+  packed.resize(size);
+  std::string bytes(1, '\2');
+  append(bytes, std::uint16_t(0x041c));
+  append(bytes, std::uint16_t(4));
+  bytes += packed;
+  append(bytes, std::uint64_t(0));
+  append(bytes, std::uint32_t(1));
+  write(folder / "serialized", bytes);
+}
+
+constexpr const char* kGltfRest =
+    R"("byteLength": 92}], "bufferViews": [{"buffer": 0, "byteLength": 12}, {"buffer": 0, "byteOffset": 12, "byteLength": 48},
+{"buffer": 0, "byteOffset": 60, "byteLength": 32}], "accessors": [{"bufferView": 0, "componentType": 5123, "count": 6, "type": "SCALAR"},
+{"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+{"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2"}],
+"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 2]}], "extensionsUsed": ["KHR_lights_punctual", "KHR_materials_transmission"],
+"extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 3}, {"type": "spot", "spot": {"outerConeAngle": 0.5}}]}},
+"nodes": [{"mesh": 0, "children": [1], "rotation": [0, 0, 0, 1]}, {"mesh": 0, "scale": [0.5, 1, 2], "extensions": {"KHR_lights_punctual": {"light": 0}}},
+{"camera": 0, "translation": [0, 0, 4]}], "cameras": [{"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.1}}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 1, "TEXCOORD_0": 2}, "indices": 0, "material": 0}]}],
+"materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.2, 0.1, 1], "metallicFactor": 0.1, "roughnessFactor": 0.4},
+"emissiveFactor": [1, 1, 0], "alphaMode": "MASK", "doubleSided": true, "extensions": {"KHR_materials_transmission": {"transmissionFactor": 0.5}}}]})";
+
+/// A square as .gltf with its bytes beside the text (in zeros of base64) and as .glb.
+void writeGltf(const fs::path& folder) {
+  std::string binary;
+  for (const std::uint16_t i : {0, 1, 2, 2, 1, 3}) append(binary, i);
+  for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 1.f, 1.f, 0.f}) append(binary, x);
+  for (const float x : {0.f, 1.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f}) append(binary, x);
+  std::string json = std::string(R"({"buffers": [{)") + kGltfRest;
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  std::string glb = "\1glTF";
+  append(glb, std::uint32_t(2));
+  append(glb, std::uint32_t(12 + 8 + json.size() + 8 + binary.size()));
+  append(glb, std::uint32_t(json.size()));
+  glb += "JSON" + json;
+  append(glb, std::uint32_t(binary.size()));
+  glb += std::string("BIN\0", 4) + binary;
+  write(folder / "glb", glb);
+  write(folder / "gltf", std::string(1, '\0') + R"({"buffers": [{"uri": "data:application/octet-stream;base64,)" +
+                             std::string(123, 'A') + "=\", " + kGltfRest);
+}
+
+/// The same small picture in each format; the first byte names it.
+void writePictures(const fs::path& folder) {
+  pt::Image image(6, 4);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = pt::Spectrum(float(i), 0.5f, 0.01f * float(i));
+  const fs::path made = folder / "made.exr", preview = folder / "made.png";
+  const auto take = [&](const fs::path& file, char format, const char* name) {
+    std::ifstream stream(file, std::ios::binary);
+    write(folder / name, format + std::string(std::istreambuf_iterator<char>(stream), {}));
+    stream.close();
+    fs::remove(file);
+  };
+  fs::create_directories(folder);
+  pt::writeExr(made, image);
+  take(made, '\0', "float-exr");
+  pt::writeExr(made, image, {true, {}, {}});
+  take(made, '\0', "half-exr");
+  pt::writePng(preview, image);
+  take(preview, '\2', "png");
+  std::string hdr = "\1#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 3\n";
+  for (int i = 0; i < 6; ++i) hdr += std::string("\x80\x40\x20", 3) + char(0x81);
+  write(folder / "hdr", hdr);
+  write(folder / "painted",
+        "\3{\"width\": 16, \"zenith\": [0.2, 0.3, 0.5], \"lamps\": [{\"direction\": [0, 1, 1], \"degrees\": [10, 20], "
+        "\"radiance\": 50}]}");
+}
+
 /// Small trained fields of each preset.
 void writeFields(const fs::path& folder) {
   fs::create_directories(folder);
@@ -113,6 +208,9 @@ int main(int argc, char** argv) {
   write(folder / "mitsuba_xml" / "all.xml", kSceneXml);
   copyAll(sources / "bench" / "plans", ".json", folder / "bench_plan");
   writeMeshes(folder / "mesh");
+  writeSerializedMesh(folder / "mesh");
+  writeGltf(folder / "gltf");
+  writePictures(folder / "picture");
   writeFields(folder / "field_load");
   return 0;
 }

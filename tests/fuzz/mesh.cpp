@@ -7,7 +7,7 @@
 /// The first byte chooses the format.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const fuzz::InputFolder folder;
-  static constexpr std::array kNames{"mesh.obj", "mesh.ply"};
+  static constexpr std::array kNames{"mesh.obj", "mesh.ply", "mesh.serialized"};
   if (size == 0) return 0;
   const auto file = folder.write(kNames[data[0] % kNames.size()], std::span(data, size).subspan(1));
   try {
