@@ -18,6 +18,7 @@ struct Options {
   std::string filter;
   std::filesystem::path out;
   bool fast = false;
+  bool traps = false;
   int effort = 1;
   int threads = int(std::thread::hardware_concurrency());
 };
@@ -27,7 +28,10 @@ std::vector<StabilityCase> chosenCases(const Options& options) {
   std::erase_if(chosen, [&](const StabilityCase& c) {
     return (options.fast && !c.isFast) || c.name.find(options.filter) == std::string::npos;
   });
-  for (StabilityCase& c : chosen) c.renders.spp *= options.effort;
+  for (StabilityCase& c : chosen) {
+    c.renders.spp *= options.effort;
+    c.renders.traps = options.traps;
+  }
   if (chosen.empty()) throw pt::InputError(fmt::format("no case has \"{}\" in its name", options.filter));
   return chosen;
 }
@@ -73,6 +77,10 @@ Command addStabilityCommand(CLI::App& program) {
       "time and memory against the unguided ones. Exit status 1 if a case fails");
   command->add_option("filter", options->filter, "Only cases with this in their name");
   command->add_flag("--fast", options->fast, "Only the cases that CI runs");
+  command->add_flag(
+      "--traps", options->traps,
+      "Count floating-point exceptions by place; one that is not understood is a fault (needs a build with "
+      "GUIDING_TRAPPING_MATH)");
   command->add_option("--effort", options->effort, "Factor on the samples per pixel")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();

@@ -133,7 +133,10 @@ StabilityRow refusedRow(const StabilityCase& description, const Refused& refused
 }
 
 StabilityRow probedRow(const StabilityCase& description, const StabilityVariant& variant) {
-  const ProbeResult result = description.probe(variant);
+  const ProbeResult result = [&] {
+    const FloatTraps traps(description.renders.traps);
+    return description.probe(variant);
+  }();
   StabilityRow row;
   row.variant = variant.name;
   row.figures = result.figures;
@@ -186,6 +189,12 @@ StabilityOutcome runStabilityCase(const StabilityCase& description, const std::v
   StabilityOutcome outcome;
   outcome.description = &description;
   outcome.rows = rowsOf(description, variants, threads);
+  outcome.exceptions = FloatTraps::take();
+  for (const TrappedException& exception : outcome.exceptions)
+    if (!reasonFor(exception))
+      outcome.rows.front().faults.push_back(fmt::format("{} floating-point exceptions, {}, at {} in {}",
+                                                        exception.count, exception.kind, exception.place,
+                                                        exception.module));
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;
 }
@@ -194,12 +203,13 @@ double judgeBias(std::vector<StabilityOutcome>& outcomes) {
   constexpr double kSignificance = 0.01;
   int tests = 0;
   for (const StabilityOutcome& outcome : outcomes)
-    for (const StabilityRow& row : outcome.rows) tests += row.zScore.has_value();
+    for (const StabilityRow& row : outcome.rows)
+      tests += row.zScore.has_value() && outcome.description->heavyTail.empty();
   if (tests == 0) return 0;
   const double bound = scoreOfChance(-std::expm1(std::log1p(-kSignificance) / tests));
   for (StabilityOutcome& outcome : outcomes)
     for (StabilityRow& row : outcome.rows)
-      if (row.zScore && std::abs(*row.zScore) > bound)
+      if (row.zScore && outcome.description->heavyTail.empty() && std::abs(*row.zScore) > bound)
         row.faults.push_back(fmt::format("biased: z = {:.2f}", *row.zScore));
   return bound;
 }

@@ -49,6 +49,8 @@ struct StabilityRenders {
   std::int64_t spp = 127;   ///< seven iterations
   double tolerance = 1e-5;  ///< relative difference from the truth that is rounding, or stated physics, and no bias
   void (*adjust)(pt::RenderSettings&) = nullptr;  ///< may be null
+  bool flushSubnormals = false;                   ///< take subnormal numbers for zero; not where the truth is rendered
+  bool traps = false;                             ///< count floating-point exceptions
 };
 
 // ---------------------------------------------------------------- cases without a picture
@@ -74,6 +76,8 @@ struct StabilityCase {
   bool isFast = true;           ///< part of --fast
   bool rejects = false;         ///< samples leave the range of float here, and must be counted
   std::string knownLoss = {};   ///< why the guide's error may exceed 1.1 times the unguided error
+  std::string heavyTail =
+      {};  ///< why the bias z means nothing here: the variance is not finite, or not found by so few
 };
 
 /// All cases, in the order of the table. A new one is one more entry in a file of bench/stability/cases.

@@ -73,10 +73,12 @@ constexpr const char* kHeading =
 std::string section(const Json& description) {
   std::string rows;
   for (const Json& row : description.at("rows")) rows += tableRow(row);
-  const std::string loss = description.at("knownLoss");
-  return fmt::format("<h3>{}</h3>\n<p>{}</p>\n{}<div class=\"scroll\"><table>\n{}{}</table></div>\n",
+  const std::string loss = description.at("knownLoss"), tail = description.at("heavyTail");
+  return fmt::format("<h3>{}</h3>\n<p>{}</p>\n{}{}<div class=\"scroll\"><table>\n{}{}</table></div>\n",
                      escaped(description.at("name")), escaped(description.at("expectation")),
-                     loss.empty() ? "" : "<p class=\"dim\">Known loss: " + escaped(loss) + "</p>\n", kHeading, rows);
+                     loss.empty() ? "" : "<p class=\"dim\">Known loss: " + escaped(loss) + "</p>\n",
+                     tail.empty() ? "" : "<p class=\"dim\">Bias not judged: " + escaped(tail) + "</p>\n", kHeading,
+                     rows);
 }
 
 }  // namespace

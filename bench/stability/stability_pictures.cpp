@@ -6,6 +6,8 @@
 #include <thread>
 
 #include "scene/scene.h"
+#include "stability/float_traps.h"
+#include "stability/subnormal_mode.h"
 
 namespace bench {
 
@@ -44,6 +46,7 @@ void addScaled(pt::Image& sum, const pt::Image& image, double factor) {
 
 std::vector<pt::Image> renderOtherScenes(const AsOtherScenes& others, StabilityRenders renders, int threads) {
   renders.adjust = nullptr;
+  renders.flushSubnormals = false;
   const std::size_t runs = std::size_t(renders.runs);
   std::vector<pt::Image> pictures;
   for (const AsOtherScenes::Part& part : others.parts) {
@@ -74,6 +77,8 @@ StabilityPicture renderOnce(const pt::Scene& scene, const pt::SceneDescription& 
   settings.guiding = guiding;
   if (renders.adjust) renders.adjust(settings);
 
+  const SubnormalMode subnormals(renders.flushSubnormals);
+  const FloatTraps traps(renders.traps);
   const double start = threadSeconds();
   pt::RenderResult result = pt::render(scene, settings);
   StabilityPicture run;

@@ -63,10 +63,19 @@ nlohmann::ordered_json stabilityToJson(const StabilityRun& run) {
   for (const StabilityOutcome& outcome : run.outcomes) {
     Json rows = Json::array();
     for (const StabilityRow& row : outcome.rows) rows.push_back(toJson(row));
+    Json exceptions = Json::array();
+    for (const TrappedException& e : outcome.exceptions)
+      exceptions.push_back({{"kind", e.kind},
+                            {"module", e.module},
+                            {"place", e.place},
+                            {"count", e.count},
+                            {"reason", reasonFor(e).value_or("")}});
     cases.push_back({{"name", outcome.description->name},
                      {"expectation", outcome.description->expectation},
                      {"knownLoss", outcome.description->knownLoss},
+                     {"heavyTail", outcome.description->heavyTail},
                      {"seconds", outcome.seconds},
+                     {"exceptions", std::move(exceptions)},
                      {"rows", std::move(rows)}});
   }
   return {{"program", "guiding-bench stability"},

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "stability/float_traps.h"
 #include "stability/stability_case.h"
 #include "statistics/log_mean_interval.h"
 
@@ -28,8 +29,9 @@ struct StabilityRow {
 
 struct StabilityOutcome {
   const StabilityCase* description = nullptr;
-  std::vector<StabilityRow> rows;  ///< one a variant
-  double seconds = 0;              ///< wall-clock
+  std::vector<StabilityRow> rows;            ///< one a variant
+  std::vector<TrappedException> exceptions;  ///< of all variants, if they were to be trapped
+  double seconds = 0;                        ///< wall-clock
 };
 
 /// The guide's error at equal samples may not exceed this times the unguided error.

@@ -112,6 +112,12 @@ StabilityCases dynamicRangeCases() {
                    .scene = [] { return furnace(0.5f, 4e-40f).depths(-1, 5); },
                    .truth = KnownRadiance{8e-40},
                    .renders = {.tolerance = 1e-3}});
+  for (const float factor : {1.0f, 1e-30f})
+    cases.push_back({.name = factor == 1 ? "range/room-flushing" : "range/room-times-1e-30-flushing",
+                     .expectation = "The same picture where subnormal numbers are taken for zero (FTZ and DAZ).",
+                     .scene = [=] { return roomWithUplight(pt::Spectrum(10 * factor)); },
+                     .truth = AsOtherScenes{{{roomWithUplight(), factor}}},
+                     .renders = {.flushSubnormals = true}});
   cases.push_back({.name = "range/beyond-float",
                    .expectation = "Sums beyond the range of float become black, and are counted.",
                    .scene = [] { return furnace(0.9f, 2e38f); },

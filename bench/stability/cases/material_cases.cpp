@@ -106,7 +106,8 @@ StabilityCase grazing(const std::string& name, const Kind& kind) {
           .expectation = "Seen at 1e-6 rad, a white surface in a white sky shows 1.",
           .scene = [=] { return grazed(kind); },
           .truth = KnownRadiance{1},
-          .renders = {.tolerance = 1e-4}};
+          .renders = {.tolerance = 1e-4},
+          .knownLoss = kExactUnguided};
 }
 
 }  // namespace
@@ -145,7 +146,8 @@ StabilityCases materialCases() {
                    .expectation = "The same with 1000 bounces instead of roulette.",
                    .scene = [] { return betweenMirrors(1000, 1000); },
                    .truth = KnownRadiance{1},
-                   .renders = {.tolerance = 1e-4}});
+                   .renders = {.tolerance = 1e-4},
+                   .knownLoss = kExactUnguided});
   cases.push_back({.name = "material/delta-share-1e-6",
                    .expectation = "A polish that reflects a millionth changes the picture by less than that.",
                    .scene = [] { return roomWith(plastic(0.5f, 1e-6f)); },
@@ -157,7 +159,8 @@ StabilityCases materialCases() {
   cases.push_back({.name = "material/reflectance-1",
                    .expectation = "A white sphere in a white sky cannot be seen.",
                    .scene = [] { return sphereInSky(pt::DiffuseMaterial{1.0f}); },
-                   .truth = KnownRadiance{1}});
+                   .truth = KnownRadiance{1},
+                   .knownLoss = kExactUnguided});
   cases.push_back({.name = "material/reflectance-0",
                    .expectation = "Black, and no division by it.",
                    .scene = [] { return sphereInSky(pt::DiffuseMaterial{0.0f}); },

@@ -32,6 +32,10 @@ StabilityCases placeCases() {
                    .expectation = "Not one ray gets out of a closed box into a sky of 1e9.",
                    .scene = [] { return darkBox(1); },
                    .truth = KnownRadiance{0}});
+  cases.push_back({.name = "place/no-light-leaks-1e-6",
+                   .expectation = "The same, a millionth as large.",
+                   .scene = [] { return darkBox(1e-6f); },
+                   .truth = KnownRadiance{0}});
   cases.push_back({.name = "place/no-light-leaks-1e6",
                    .expectation = "The same, a million times as large.",
                    .scene = [] { return darkBox(1e6f); },
@@ -46,7 +50,8 @@ StabilityCases placeCases() {
              maker.look({0, 0, 4}, {0, 0, 0}, 25).sky(pt::Spectrum(1.0f));
              return maker;
            },
-       .truth = KnownRadiance{1}});
+       .truth = KnownRadiance{1},
+       .knownLoss = kExactUnguided});
   return cases;
 }
 

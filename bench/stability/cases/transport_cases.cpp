@@ -56,6 +56,10 @@ SceneMaker manyLamps() {
   return maker;
 }
 
+const char* kHeavyTail =
+    "Weights multiply at every bounce, so a few paths in millions carry the mean: their variance is not to be found by "
+    "so few.";
+
 const char* kLongPaths =
     "A guide that is not exact multiplies a path's weight at every bounce: over hundreds of them its variance grows "
     "without bound, while the BSDF alone has none here.";
@@ -69,13 +73,29 @@ StabilityCases transportCases() {
                    .scene = [] { return furnace(0.999f, 0.001f).depths(1000, 1000); },
                    .truth = KnownRadiance{0.63230457522},  // 1 - 0.999^1000
                    .renders = {.runs = 8, .spp = 15, .tolerance = 2e-4},
+                   .knownLoss = kLongPaths,
+                   .heavyTail = kHeavyTail});
+  cases.push_back({.name = "transport/furnace-0.999-30",
+                   .expectation = "After 30 bounces it shows 1 - 0.999^30.",
+                   .scene = [] { return furnace(0.999f, 0.001f).depths(30, 30); },
+                   .truth = KnownRadiance{0.029569032737},  // 1 - 0.999^30
+                   .renders = {.tolerance = 2e-4},
+                   .knownLoss = kLongPaths});
+  cases.push_back({.name = "transport/furnace-0.9-roulette",
+                   .expectation = "A furnace of albedo 0.9 without a limit, ended by roulette.",
+                   .scene = [] { return furnace(0.9f, 0.1f).depths(-1, 5); },
+                   .truth = KnownRadiance{1},
+                   .renders = {.tolerance = 2e-4},
                    .knownLoss = kLongPaths});
   cases.push_back({.name = "transport/furnace-0.999-roulette",
                    .expectation = "The same without a limit, ended by roulette.",
                    .scene = [] { return furnace(0.999f, 0.001f).depths(-1, 5); },
                    .truth = KnownRadiance{1},
                    .renders = {.tolerance = 2e-4},
-                   .knownLoss = kLongPaths});
+                   .knownLoss = kLongPaths,
+                   .heavyTail =
+                       "Roulette lets at most 0.95 survive, as Mitsuba's does: where the albedo's square is larger, "
+                       "the variance of a path is infinite, guided or not."});
   cases.push_back({.name = "transport/slit-of-1mm",
                    .expectation = "A room of 2 m that is lit through a slit of 1 mm.",
                    .scene = [] { return throughSlit(0.001f); }});
