@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "cli/load_progress.h"
 #include "core/error.h"
 #include "core/near_name.h"
 #include "integrators/guiding_presets.h"
@@ -248,6 +249,8 @@ SceneDescription loadDescription(const SceneOptions& options) {
       throw InputError(fmt::format("-D {}: give name=value, such as -D spp=64", variable));
     load.variables[variable.substr(0, equals)] = variable.substr(equals + 1);
   }
+  LoadProgressDisplay display(stderr);
+  load.onMesh = [&](std::size_t read, std::size_t all) { display.update(read, all); };
   SceneDescription description = loadScene(options.file, load);
   if (!options.environmentMap.empty()) replaceEnvironment(description, options.environmentMap);
   if (!options.resolution.empty()) applyResolution(options.resolution, description.film);

@@ -50,7 +50,7 @@ SceneDescription loadJsonScene(const std::filesystem::path& file, const LoadOpti
   context.search.addFolder(file.parent_path());
   ObjectReader root(Node(document, file.string() + "#"));
   readAll(context, root);
-  context.meshes.load();
+  context.meshes.load(options.onMesh);
   return std::move(context.scene);
 }
 

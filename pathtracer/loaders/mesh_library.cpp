@@ -2,7 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include <exception>
+#include <mutex>
 
 #include "loaders/loader_error.h"
 
@@ -17,7 +17,7 @@ std::shared_ptr<const TriangleMesh> MeshLibrary::request(const MeshFile& file, c
   return entry.mesh;
 }
 
-void MeshLibrary::load() {
+void MeshLibrary::load(const std::function<void(std::size_t read, std::size_t all)>& onMesh) {
   struct Job {
     const MeshFile* file;
     Entry* entry;
@@ -25,6 +25,8 @@ void MeshLibrary::load() {
   };
   std::vector<Job> jobs;
   for (auto& [file, entry] : m_entries) jobs.push_back({&file, &entry, {}});
+  std::mutex telling;
+  std::size_t read = 0;
   tbb::parallel_for(
       std::size_t(0), jobs.size(),
       [&](std::size_t i) {
@@ -33,6 +35,9 @@ void MeshLibrary::load() {
         } catch (const InputError& error) {
           jobs[i].error = error.what();
         }
+        if (!onMesh) return;
+        const std::lock_guard lock(telling);
+        onMesh(++read, jobs.size());
       },
       tbb::simple_partitioner());
   for (const Job& job : jobs)

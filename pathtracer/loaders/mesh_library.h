@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -13,8 +15,9 @@ class MeshLibrary {
   /// The mesh will be empty until load(). `source` is the place that asks, for messages.
   std::shared_ptr<const TriangleMesh> request(const MeshFile& file, const SourceLocation& source);
 
-  /// Reads what was requested. Throws InputError about the first request that cannot be satisfied.
-  void load();
+  /// Reads what was requested; for onMesh see LoadOptions. Throws InputError about the first request that cannot be
+  /// satisfied.
+  void load(const std::function<void(std::size_t read, std::size_t all)>& onMesh);
 
  private:
   struct Entry {

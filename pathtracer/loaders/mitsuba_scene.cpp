@@ -61,7 +61,7 @@ SceneDescription loadMitsubaScene(const std::filesystem::path& file, const LoadO
   const Object& scene = objects.front();
   checkScene(scene);
   for (const Child& child : scene.children) readChild(context, *child.object);
-  context.meshes.load();
+  context.meshes.load(options.onMesh);
   return std::move(context.scene);
 }
 

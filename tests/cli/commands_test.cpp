@@ -48,7 +48,7 @@ TEST_CASE("compensate-envmap writes a map, a report and a picture of both densit
     const json report = json::parse(space.read("out.report.json"));
     CHECK(report["form"] == form);
     CHECK(report["width"] == 64);
-    CHECK(report["removedMass"] > 0.1);
+    CHECK(report["removedMass"] > (form == std::string("half") ? 0.04 : 0.25));
     CHECK(report["removedMass"] < 0.5);
     CHECK(report["predictedGain"] > 1.2);
   }

@@ -83,7 +83,7 @@ TEST_CASE("the environment's sampling is what was asked for", "[cli]") {
     CHECK_THAT(report["scene"]["present"].dump(), Contains("environment map"));
     return report["scene"]["environmentSampling"];
   };
-  CHECK(sampling({}) == json{{"form", "mean"}, {"lightShare", "automatic"}});
+  CHECK(sampling({}) == json{{"form", "normal"}, {"lightShare", "automatic"}});
   for (const char* form : {"plain", "mean", "waterfill", "normal"})
     CHECK(sampling({"--environment", form})["form"] == form);
   CHECK(sampling({"--environment", "mean:0.25"})["lightShare"] == 0.25);

@@ -121,11 +121,11 @@ TEST_CASE("shared: scenes with textures, masks and maps load whole") {
 }
 
 TEST_CASE("shared: the kitchen with its sun and sky as an emitter is the one with them as a map") {
-  const auto daylight = loadShared("kitchen/kitchen.xml"), map = loadShared("kitchen/kitchen-envmap.xml");
-  if (!daylight || !map) return;
-  CHECK(daylight->skipped.empty());
-  CHECK(daylight->shapes.size() == map->shapes.size());
-  const auto& ours = std::get<EnvironmentMap>(daylight->lights.at(0).kind);
+  const auto dayScene = loadShared("kitchen/kitchen.xml"), map = loadShared("kitchen/kitchen-envmap.xml");
+  if (!dayScene || !map) return;
+  CHECK(dayScene->skipped.empty());
+  CHECK(dayScene->shapes.size() == map->shapes.size());
+  const auto& ours = std::get<EnvironmentMap>(dayScene->lights.at(0).kind);
   const auto& theirs = std::get<EnvironmentMap>(map->lights.at(0).kind);
   CHECK(ours.mapping == theirs.mapping);
   CHECK(isNear(apply(ours.toWorld, Vec3(1, 2, 3)), apply(theirs.toWorld, Vec3(1, 2, 3))));
