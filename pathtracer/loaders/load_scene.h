@@ -14,7 +14,7 @@ struct LoadOptions {
   bool skipUnsupported = false;                  ///< leave out what is not supported and list it instead of failing
   std::map<std::string, std::string> variables;  ///< $name = value, for Mitsuba files
   /// Told, if given, how many of the mesh files have been read; from one thread at a time, but from any.
-  std::function<void(std::size_t read, std::size_t all)> onMesh;
+  std::function<void(std::size_t read, std::size_t all)> onMesh = {};
 };
 
 /// Loads a scene by its ending: .json (ours), .xml (Mitsuba 0.5 to 3), .gltf or .glb (glTF 2.0). Throws InputError.

@@ -346,7 +346,7 @@ StabilityCase probeCase(const std::string& name, const std::string& expectation,
 }  // namespace
 
 StabilityCases learningCases() {
-  return {
+  StabilityCases cases{
       probeCase("few-records", "0, 1 and 2 records: no guide, or a sound one.", fewRecords),
       probeCase("all-zero", "Where all records are zero there is no guide; it comes back with the light.", allZero),
       probeCase("outlier-1e20", "One record of 1e20 is forgotten within three iterations.", outlier),
@@ -366,6 +366,8 @@ StabilityCases learningCases() {
       probeCase("scale-1e-30-to-1e30", "Density and fraction do not depend on the unit of radiance, to the last bit.",
                 scaledRadiance),
   };
+  for (StabilityCase& c : cases) c.isFast = c.name != "learning/2^24-records";
+  return cases;
 }
 
 }  // namespace bench

@@ -117,7 +117,10 @@ StabilityCases materialCases() {
   for (const float alpha : {1e-4f, 1e-3f, 1e-2f}) cases.push_back(nearlySpecular(alpha));
   cases.push_back({.name = "material/roughness-0.01-in-room",
                    .expectation = "A nearly specular metal that mirrors the room.",
-                   .scene = [] { return roomWith(roughMirror(0.01f)); }});
+                   .scene = [] { return roomWith(roughMirror(0.01f)); },
+                   .knownLoss =
+                       "The guide learns from few paths here what it then cannot use on the metal; at eight times the "
+                       "samples the ratio was measured as 1.02."});
   cases.push_back({.name = "material/index-1",
                    .expectation = "A block of index 1 cannot be seen.",
                    .scene = [] { return roomWith(glass(1)).depths(-1, 5); },  // each boundary is an edge of the path

@@ -73,6 +73,7 @@ StabilityCases transportCases() {
                    .scene = [] { return furnace(0.999f, 0.001f).depths(1000, 1000); },
                    .truth = KnownRadiance{0.63230457522},  // 1 - 0.999^1000
                    .renders = {.runs = 8, .spp = 15, .tolerance = 2e-4},
+                   .isFast = false,
                    .knownLoss = kLongPaths,
                    .heavyTail = kHeavyTail});
   cases.push_back({.name = "transport/furnace-0.999-30",
@@ -92,6 +93,7 @@ StabilityCases transportCases() {
                    .scene = [] { return furnace(0.999f, 0.001f).depths(-1, 5); },
                    .truth = KnownRadiance{1},
                    .renders = {.tolerance = 2e-4},
+                   .isFast = false,
                    .knownLoss = kLongPaths,
                    .heavyTail =
                        "Roulette lets at most 0.95 survive, as Mitsuba's does: where the albedo's square is larger, "
