@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/replace_file.h"
 #include "core/srgb.h"
+#include "film/exr_header.h"
 #include "scene/scene_description.h"
 
 namespace pt {
@@ -121,6 +122,7 @@ Image readImage(const fs::path& file) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) failToRead(file, "there is no such file");
   if (!fs::is_regular_file(file, ignored)) failToRead(file, "it is no file but a folder, a device or a pipe");
+  if (const auto fault = faultOfExrHeader(file)) failToRead(file, *fault);
   const auto input = OIIO::ImageInput::open(file.string());
   if (!input) failToRead(file, OIIO::geterror());
   return readColours(file, *input);

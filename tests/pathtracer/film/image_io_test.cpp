@@ -9,6 +9,7 @@
 
 #include "catch.h"
 #include "core/error.h"
+#include "film/exr_header.h"
 
 using namespace pt;
 using Catch::Matchers::Contains;
@@ -146,6 +147,25 @@ TEST_CASE("Gigantic pictures that a file announces and does not have are refused
   writeExr(folder.path / "flat.exr", Image(4096, 1024), {true, {}, {}});
   CHECK(fs::file_size(folder.path / "flat.exr") < 4096 * 1024 * 6 / 200);
   CHECK(readImage(folder.path / "flat.exr").width == 4096);
+}
+
+TEST_CASE("A header of attributes that are larger than the file is refused, wherever it is cut") {
+  const Folder folder;
+  const fs::path whole = folder.path / "whole.exr", cut = folder.path / "cut.exr";
+  writeExr(whole, gradient(4, 4));
+  std::ifstream stream(whole, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+  CHECK(!faultOfExrHeader(whole));
+  std::string forged = bytes;
+  const std::size_t at = forged.find("chlist") + 7;  // the attribute's size
+  REQUIRE(at < forged.size());
+  forged.replace(at, 4, "\xf0\xff\xff\x6f");
+  std::ofstream(cut, std::ios::binary) << forged;
+  CHECK_THROWS_WITH(readImage(cut), Contains("attribute 'channels' is cut short: 1879048176 bytes are announced"));
+  for (std::size_t size = 0; size < bytes.size(); size += 3) {
+    std::ofstream(cut, std::ios::binary | std::ios::trunc) << bytes.substr(0, size);
+    CHECK_THROWS_AS(readImage(cut), InputError);
+  }
 }
 
 TEST_CASE("Devices, pipes and folders are no pictures") {
