@@ -17,6 +17,7 @@ Command addReportCommand(CLI::App& program);
 Command addImportCommand(CLI::App& program);
 Command addFitCommand(CLI::App& program);
 Command addMicroCommand(CLI::App& program);
+Command addStabilityCommand(CLI::App& program);
 /// What `run` starts for each job; hidden from the help.
 Command addWorkCommand(CLI::App& program);
 

@@ -11,7 +11,8 @@ int runCommands(int argc, char** argv) {
   program.require_subcommand(1);
   const bench::Command commands[] = {bench::addRunCommand(program),    bench::addReportCommand(program),
                                      bench::addImportCommand(program), bench::addFitCommand(program),
-                                     bench::addMicroCommand(program),  bench::addWorkCommand(program)};
+                                     bench::addMicroCommand(program),  bench::addStabilityCommand(program),
+                                     bench::addWorkCommand(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -24,7 +24,7 @@ void AdamFraction::startAt(float fraction) noexcept {
 }
 
 void AdamFraction::learn(std::span<const FractionRecord> records, FractionLoss loss) noexcept {
-  constexpr double kRate = 0.01, kBeta1 = 0.9, kBeta2 = 0.999, kEpsilon = 1e-8, kRegularisation = 0.01;
+  constexpr double kRate = 0.01, kBeta1 = 0.9, kBeta2 = 0.999, kRegularisation = 0.01;
   constexpr double kLargestWeight = 1e100;
   constexpr std::uint32_t kBatch = 2;
   for (const FractionRecord& r : records) {
@@ -37,7 +37,7 @@ void AdamFraction::learn(std::span<const FractionRecord> records, FractionLoss l
     const double importance = double(r.product) / r.pdf;
     const double weight = loss == FractionLoss::Variance ? r.product / mixture * importance : importance;
     if (!(weight < kLargestWeight)) continue;  // its square would stay in the second moment for ever
-    batchGradient += -weight * ratio * alpha * (1 - alpha) + kRegularisation * logit;
+    batchGradient += -weight * ratio * alpha * (1 - alpha);
     if (++batchCount < kBatch) continue;
 
     const double gradient = batchGradient / batchCount;
@@ -47,7 +47,10 @@ void AdamFraction::learn(std::span<const FractionRecord> records, FractionLoss l
     firstMoment = kBeta1 * firstMoment + (1 - kBeta1) * gradient;
     secondMoment = kBeta2 * secondMoment + (1 - kBeta2) * gradient * gradient;
     const double rate = kRate * std::sqrt(1 - std::pow(kBeta2, steps)) / (1 - std::pow(kBeta1, steps));
-    logit = std::clamp(logit - rate * firstMoment / (std::sqrt(secondMoment) + kEpsilon), -kMaxLogit, kMaxLogit);
+    // Nothing here has the unit of radiance: no constant is added to the root, and the pull towards one half stands
+    // beside the gradient instead of in it [Loshchilov & Hutter 2019].
+    const double step = secondMoment > 0 ? rate * firstMoment / std::sqrt(secondMoment) : 0;
+    logit = std::clamp(logit - step - kRate * kRegularisation * logit, -kMaxLogit, kMaxLogit);
   }
 }
 

@@ -43,7 +43,8 @@ Json toJson(const RenderCounters& counters) {
           {"splits", counters.splits},
           {"branches", counters.branches},
           {"cappedSplits", counters.cappedSplits},
-          {"rejectedSamples", counters.rejectedSamples}};
+          {"rejectedSamples", counters.rejectedSamples},
+          {"largestSample", counters.largestSample}};
 }
 
 Json toJson(const EnvironmentSampling& sampling) {

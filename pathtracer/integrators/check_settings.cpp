@@ -11,15 +11,14 @@ namespace pt {
 
 namespace {
 
-constexpr int kMaxSide = 1 << 17;
-constexpr std::int64_t kMaxPixels = std::int64_t(1) << 28;
 constexpr std::int64_t kMaxSpp = std::int64_t(1) << 31;  // samples are numbered with 32 bits
 
 void checkResolution(int width, int height) {
-  if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide || std::int64_t(width) * height > kMaxPixels)
+  if (width < 1 || height < 1 || width > kMaxFilmSize || height > kMaxFilmSize ||
+      std::int64_t(width) * height > kMaxFilmPixels)
     throw InputError(
         fmt::format("resolution {}x{} cannot be rendered: each side must lie in [1, {}] and the product below {}",
-                    width, height, kMaxSide, kMaxPixels));
+                    width, height, kMaxFilmSize, kMaxFilmPixels));
 }
 
 void checkBudget(const RenderSettings& settings) {

@@ -66,8 +66,11 @@ void PassRenderer::renderTile(const Tile& tile, const PathLoop& loop, SampleRang
         const Vec2 film = Vec2(float(x) + 0.5f, float(y) + 0.5f) + sampleFilter(m_settings.filter, sampler.next2D());
         const Ray ray = m_scene.camera().generateRay(film, sampler.next2D());
         firstHit = {};
-        targets.film.add(x, y, loop.trace(ray, x, y, sampler, worker));
+        const Spectrum radiance = loop.trace(ray, x, y, sampler, worker);
+        targets.film.add(x, y, radiance);
         targets.film.addUnguidedSquare(x, y, worker.unguidedSquare);
+        if (isFinite(radiance))
+          worker.counters.largestSample = std::max(worker.counters.largestSample, maxComponent(radiance));
         ++worker.counters.paths;
         if (targets.aovs) targets.aovs->add(x, y, firstHit);
         if (records.samples) worker.recorder.finish(*records.samples);
@@ -100,6 +103,7 @@ RenderCounters PassRenderer::counters() const {
     sum.splits += worker.counters.splits;
     sum.branches += worker.counters.branches;
     sum.cappedSplits += worker.counters.cappedSplits;
+    sum.largestSample = std::max(sum.largestSample, worker.counters.largestSample);
   }
   return sum;
 }

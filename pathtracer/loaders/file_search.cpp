@@ -42,6 +42,9 @@ std::string readTextFile(const std::filesystem::path& file) {
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw InputError(file.string() + ": no such file");
   if (std::filesystem::is_directory(status)) throw InputError(file.string() + ": is a directory, not a file");
+  // A scene may name any path; a device has no end, and a pipe waits for somebody.
+  if (!std::filesystem::is_regular_file(status))
+    throw InputError(file.string() + ": is a device or a pipe; copy what it gives to a file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file.string() + ": cannot be opened: " + std::strerror(errno));
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};

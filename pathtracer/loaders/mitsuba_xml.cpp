@@ -15,6 +15,7 @@ namespace {
 constexpr int kMaxNesting = 64;
 constexpr std::size_t kMaxOpenIncludes = 16;
 constexpr int kMaxIncludes = 256;
+constexpr std::size_t kMaxSubstituted = 1 << 24;
 
 /// An open file: turns pugixml's offsets into lines.
 class SourceFile {
@@ -158,7 +159,11 @@ class XmlReader {
       if (length == 0) failUnknownVariable(whole, source);
       const std::string name(text.substr(0, length));
       m_used.insert(name);
-      result += m_variables.at(name);
+      const std::string& value = m_variables.at(name);
+      m_substituted += value.size();
+      if (m_substituted > kMaxSubstituted)
+        failAt(source, fmt::format("the values of variables come to more than {} characters", kMaxSubstituted));
+      result += value;
       text.remove_prefix(length);
     }
     return result;
@@ -175,6 +180,7 @@ class XmlReader {
   std::set<std::string> m_used;
   std::set<std::filesystem::path> m_openIncludes;
   int m_includes = 0;
+  std::size_t m_substituted = 0;  ///< characters that stand in the place of variables so far
   XmlScene m_scene;
 };
 

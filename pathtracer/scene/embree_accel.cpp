@@ -72,12 +72,12 @@ bool isDoubtful(const Mesh& mesh, double t, const Imath::V3d& direction, const R
   return height * height <= limit * limit * ng.length2();
 }
 
-/// Whether the ray meets the triangle's plane beyond tMin, in double precision from the exact vertices.
+/// Whether the ray meets the triangle's plane at tMin or beyond, in double precision from the exact vertices.
 bool isBeyond(const Mesh& mesh, std::uint32_t triangle, const RayD& ray, double tMin) {
   const auto& [a, b, c] = mesh.triangles[triangle];
   const Imath::V3d v0(mesh.position(a));
   const Imath::V3d n = (Imath::V3d(mesh.position(b)) - v0).cross(Imath::V3d(mesh.position(c)) - v0);
-  return (v0 - ray.origin).dot(n) / ray.direction.dot(n) > tMin;
+  return (v0 - ray.origin).dot(n) / ray.direction.dot(n) >= tMin;
 }
 
 /// Refuses false hits of shadow rays; the ray is in the mesh's own space.

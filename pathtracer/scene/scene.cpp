@@ -78,9 +78,10 @@ bool Scene::occluded(const Ray& ray) const noexcept {
 }
 
 Ray Scene::spawnRay(const SurfaceInteraction& si, const Vec3& direction) const noexcept {
-  const float offset = si.ng.dot(direction) < 0 ? -si.offset : si.offset;
-  // Not 0: where the offset is 0 the origin lies exactly in the plane, and Embree includes both ends of the ray.
-  return {si.p + si.ng * offset, direction, std::numeric_limits<float>::min()};
+  // Never in the surface itself, not even where it passes through the origin. So what lies at distance 0 is another
+  // surface, in whose plane the point was rounded: in a corner it keeps the light out.
+  const float size = std::max(si.offset, std::numeric_limits<float>::min());
+  return {si.p + si.ng * (si.ng.dot(direction) < 0 ? -size : size), direction, 0};
 }
 
 bool Scene::visible(const SurfaceInteraction& si, const LightSample& light) const noexcept {

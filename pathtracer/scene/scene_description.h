@@ -301,7 +301,7 @@ struct CameraDescription {
 enum class ReconstructionFilter { Box, Tent, Gaussian };
 
 /// Largest width or height of a picture, and the most pixels of one.
-inline constexpr int kMaxFilmSize = 65536;
+inline constexpr int kMaxFilmSize = 1 << 17;
 inline constexpr std::int64_t kMaxFilmPixels = std::int64_t(1) << 28;
 
 struct FilmDescription {

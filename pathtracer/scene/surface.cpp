@@ -25,13 +25,22 @@ Vec3 unit(const Imath::V3d& v) {
   return Vec3(v * (1 / v.length()));
 }
 
+/// Barycentric coordinates of a point that lies inside for certain, also once it is rounded: those of a hit may lie
+/// some roundings outside, and in the corner of a room such a point would be behind the next wall.
+Imath::V2d insideTriangle(float u, float v) {
+  constexpr double kMargin = 0x1p-22;
+  const double inU = std::clamp(double(u), kMargin, 1 - 2 * kMargin);
+  return {inU, std::clamp(double(v), kMargin, 1 - kMargin - inU)};
+}
+
 LocalHit triangleHit(const Mesh& mesh, const AccelHit& hit) {
   const auto& [a, b, c] = mesh.triangles[hit.primitive];
   const Vec3 &v0 = mesh.position(a), &v1 = mesh.position(b), &v2 = mesh.position(c);
   const Imath::V3d e1 = Imath::V3d(v1) - Imath::V3d(v0), e2 = Imath::V3d(v2) - Imath::V3d(v0);
   LocalHit local;
   // In double, so that the point is off the triangle's plane by no more than its own rounding to float.
-  local.p = Imath::V3d(v0) + e1 * double(hit.u) + e2 * double(hit.v);
+  const Imath::V2d inside = insideTriangle(hit.u, hit.v);
+  local.p = Imath::V3d(v0) + e1 * inside.x + e2 * inside.y;
   local.ng = local.ns = unit(e1.cross(e2));
   local.uv = mesh.uvAt(mesh.triangles[hit.primitive], {hit.u, hit.v});
   const float w = 1 - hit.u - hit.v;

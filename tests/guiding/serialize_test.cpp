@@ -162,6 +162,32 @@ TEST_CASE("Forged counts are refused before anything is allocated") {
   }
 }
 
+TEST_CASE("A leaf that counts 2^32 records is split as its count says") {
+  constexpr std::uint64_t kCount = 12'347, kMany = (std::uint64_t(1) << 32) + 7;
+  FieldSettings settings = FieldSettings::mueller2017();
+  settings.sTreeThreshold = double(1 << 28);
+  Field field = makeField(settings);
+  Random random(5);
+  REQUIRE(field.accumulate(record(field, coneRadiance, int(kCount), random)));
+  Bytes bytes = bytesOf(field);
+  int found = 0;
+  for (std::size_t at = kPayloadAt; at + 8 <= bytes.size(); ++at)
+    if (std::memcmp(bytes.data() + at, &kCount, 8) == 0) {
+      std::memcpy(bytes.data() + at, &kMany, 8);
+      ++found;
+    }
+  REQUIRE(found == 2);  // of the leaf and of the field
+  Result<Field> loaded = loadBytes(forged(bytes));
+  REQUIRE(loaded.ok());
+  Field& full = loaded.value();
+  CHECK(full.stats().samples == kMany);
+  REQUIRE(full.accumulate(record(full, coneRadiance, 1, random)));
+  CHECK(full.stats().samples == kMany + 1);
+  REQUIRE(full.endIteration(2));  // the threshold is 2^28: 16 leaves hold 2^28 and a half, 32 hold less
+  CHECK(full.stats().spatialLeaves == 32);
+  CHECK(full.validate());
+}
+
 TEST_CASE("Foreign files are told apart") {
   CHECK(failsAs(ErrorCode::Format, loadBytes({})));
   CHECK(failsAs(ErrorCode::Format, loadBytes({'h', 'e', 'l', 'l', 'o'})));

@@ -2,12 +2,14 @@
 
 #include <OpenImageIO/imageio.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <fstream>
 
 #include "catch.h"
 #include "core/error.h"
+#include "film/exr_header.h"
 
 using namespace pt;
 using Catch::Matchers::Contains;
@@ -116,6 +118,62 @@ TEST_CASE("Files that are no pictures are refused by name") {
   std::string bytes((std::istreambuf_iterator<char>(whole)), {});
   std::ofstream(folder.path / "cut.exr", std::ios::binary) << bytes.substr(0, bytes.size() / 2);
   CHECK_THROWS_AS(readImage(folder.path / "cut.exr"), InputError);
+}
+
+TEST_CASE("Gigantic pictures that a file announces and does not have are refused before memory is taken") {
+  const Folder folder;
+  writeExr(folder.path / "small.exr", gradient(64, 64));
+  std::ifstream small(folder.path / "small.exr", std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(small)), {});
+  const std::string window("\0\0\0\0\0\0\0\0\x3f\0\0\0\x3f\0\0\0", 16);  // 0, 0 to 63, 63
+  for (const int side : {16'384, 1'000'000, 0x7fffffff}) {
+    std::string forged = bytes, huge = window;
+    const std::int32_t last = side - 1;
+    for (const std::size_t at : {8, 12}) huge.replace(at, 4, reinterpret_cast<const char*>(&last), 4);
+    int windows = 0;
+    for (std::size_t at = forged.find(window); at != std::string::npos; at = forged.find(window)) {
+      forged.replace(at, 16, huge);
+      ++windows;
+    }
+    REQUIRE(windows == 2);  // of the data and of the display
+    std::ofstream(folder.path / "huge.exr", std::ios::binary) << forged;
+    rusage before{}, after{};
+    getrusage(RUSAGE_SELF, &before);
+    CHECK_THROWS_AS(readImage(folder.path / "huge.exr"), InputError);
+    getrusage(RUSAGE_SELF, &after);
+    CHECK(after.ru_maxrss - before.ru_maxrss < 200'000);  // kB; the pixels would take 3 GB
+  }
+  // A picture that is as large as it says, however well it is packed.
+  writeExr(folder.path / "flat.exr", Image(4096, 1024), {true, {}, {}});
+  CHECK(fs::file_size(folder.path / "flat.exr") < 4096 * 1024 * 6 / 200);
+  CHECK(readImage(folder.path / "flat.exr").width == 4096);
+}
+
+TEST_CASE("A header of attributes that are larger than the file is refused, wherever it is cut") {
+  const Folder folder;
+  const fs::path whole = folder.path / "whole.exr", cut = folder.path / "cut.exr";
+  writeExr(whole, gradient(4, 4));
+  std::ifstream stream(whole, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+  CHECK(!faultOfExrHeader(whole));
+  std::string forged = bytes;
+  const std::size_t at = forged.find("chlist") + 7;  // the attribute's size
+  REQUIRE(at < forged.size());
+  forged.replace(at, 4, "\xf0\xff\xff\x6f");
+  std::ofstream(cut, std::ios::binary) << forged;
+  CHECK_THROWS_WITH(readImage(cut), Contains("attribute 'channels' is cut short: 1879048176 bytes are announced"));
+  for (std::size_t size = 0; size < bytes.size(); size += 3) {
+    std::ofstream(cut, std::ios::binary | std::ios::trunc) << bytes.substr(0, size);
+    CHECK_THROWS_AS(readImage(cut), InputError);
+  }
+}
+
+TEST_CASE("Devices, pipes and folders are no pictures") {
+  const Folder folder;
+  mkfifo((folder.path / "pipe.exr").c_str(), 0600);
+  fs::create_directory(folder.path / "folder.exr");
+  for (const fs::path& path : {fs::path("/dev/zero"), folder.path / "pipe.exr", folder.path / "folder.exr"})
+    CHECK_THROWS_WITH(readImage(path), Contains("it is no file but a folder, a device or a pipe"));
 }
 
 TEST_CASE("A failed write tells path and reason and keeps the old file") {

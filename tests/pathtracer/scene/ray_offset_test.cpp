@@ -250,3 +250,36 @@ TEST_CASE("Rays that leave a cylinder do not meet it again, at every size and pl
       CHECK(leaks == 0);
     }
 }
+
+TEST_CASE("Nothing leaves a closed room through the rounding of its corners, at every scale and place") {
+  for (const float scale : {1e-6f, 1.0f, 1e6f})
+    for (const Vec3& offset : {Vec3(0, 0, 0), Vec3(0.1f, 0.7f, -0.3f)}) {
+      const Matrix4 toWorld = test::scaling(Vec3(scale)) * test::translation(offset * scale);
+      SceneDescription description = test::sceneOf(CubeShape{}, toWorld);
+      description.shapes[0].flipNormals = true;
+      const Scene scene(description);
+      test::Random random(19);
+      int escapes = 0;
+      for (int i = 0; i < 40'000; ++i) {
+        // To a place on an edge, or some roundings beside it.
+        Vec3 target(random.next1D() < 0.5f ? -1 : 1, random.next1D() < 0.5f ? -1 : 1, 2 * random.next1D() - 1);
+        target.x *= 1 - 1e-7f * std::floor(4 * random.next1D());
+        if (i % 3 == 1) std::swap(target.y, target.z);
+        if (i % 3 == 2) std::swap(target.x, target.z);
+        const Vec3 from(random.next1D() - 0.5f, random.next1D() - 0.5f, random.next1D() - 0.5f);
+        const Ray ray{(from + offset) * scale, (target - from).normalized()};
+        SurfaceInteraction si, next;
+        if (!scene.intersect(ray, si)) {
+          ++escapes;
+          continue;
+        }
+        for (int k = 0; k < 8; ++k) {
+          const Vec3 wi = si.frame.toWorld(squareToCosineHemisphere(random.next2D()));
+          escapes += !scene.intersect(scene.spawnRay(si, wi), next);
+          escapes += !scene.occluded(scene.spawnRay(si, wi));
+        }
+      }
+      CAPTURE(scale, offset);
+      CHECK(escapes == 0);
+    }
+}

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace pt {
+
+/// What is wrong with the attributes in the header of an OpenEXR file, or nothing; other files have none. OpenEXR takes
+/// memory for an attribute before it looks whether the file is that long.
+std::optional<std::string> faultOfExrHeader(const std::filesystem::path& file);
+
+}  // namespace pt

@@ -1,0 +1,8 @@
+#include "input_folder.h"
+#include "render_loaded.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const fuzz::InputFolder folder;
+  fuzz::loadAndRender(folder.write("scene.json", std::span(data, size)));
+  return 0;
+}
