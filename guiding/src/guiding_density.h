@@ -57,9 +57,10 @@ class GuidingDensity {
   /// Starts to bring a tree's grid and its first nodes near, while the host still evaluates its BSDF.
   void prefetch(std::uint32_t index) const noexcept {
     constexpr std::size_t kLine = 64, kNodeBytes = 512;
+    // As numbers: nodes may be fewer than that, or none, and a pointer may not go beyond them.
     const auto fetch = [](const void* begin, std::size_t size) {
       for (std::size_t offset = 0; offset < size; offset += kLine)
-        __builtin_prefetch(static_cast<const char*>(begin) + offset);
+        __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(begin) + offset));
     };
     fetch(&m_trees[index], sizeof(Tree));
     fetch(m_nodes.data() + m_trees[index].firstNode, kNodeBytes);
