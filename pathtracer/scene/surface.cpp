@@ -28,7 +28,7 @@ Vec3 unit(const Imath::V3d& v) {
 /// Barycentric coordinates of a point that lies inside for certain, also once it is rounded: those of a hit may lie
 /// some roundings outside, and in the corner of a room such a point would be behind the next wall.
 Imath::V2d insideTriangle(float u, float v) {
-  constexpr double kMargin = 0x1p-22;
+  constexpr double kMargin = 0x1p-24;
   const double inU = std::clamp(double(u), kMargin, 1 - 2 * kMargin);
   return {inU, std::clamp(double(v), kMargin, 1 - kMargin - inU)};
 }
