@@ -24,6 +24,8 @@ FieldSettings FieldSettings::production2019() {
 
 FieldSettings FieldSettings::recommended() {
   FieldSettings s = production2019();
+  s.sTreeThreshold = 500;
+  s.dTreeThreshold = 0.02f;
   s.target = LearningTarget::Product;
   s.compensation = {CompensationForm::WaterFilling, 0.5f};
   return s;

@@ -202,7 +202,7 @@ void addOptions(CLI::App& command, SamplingOptions& options) {
       ->capture_default_str();
   command.add_option("--environment", options.environment,
                      "How light sampling of an environment map is sharpened against scattering: plain, mean, waterfill "
-                     "or normal, with an optional share of light samples as in mean:0.5 (default: mean)");
+                     "or normal, with an optional share of light samples as in mean:0.5 (default: normal)");
   command
       .add_option("--roulette", options.roulette,
                   "Russian roulette and splitting: classic, adjoint (by expected contribution) or ears (by expected "
