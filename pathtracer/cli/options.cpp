@@ -203,12 +203,11 @@ void addOptions(CLI::App& command, SamplingOptions& options) {
   command.add_option("--environment", options.environment,
                      "How light sampling of an environment map is sharpened against scattering: plain, mean, waterfill "
                      "or normal, with an optional share of light samples as in mean:0.5 (default: normal)");
-  command
-      .add_option("--roulette", options.roulette,
-                  "Russian roulette and splitting: classic, adjoint (by expected contribution) or ears (by expected "
-                  "variance and cost), the latter two with an optional limit to splitting as in ears:4; they learn "
-                  "while rendering, and end where they do not pay")
-      ->capture_default_str();
+  command.add_option(
+      "--roulette", options.roulette,
+      "Russian roulette and splitting: classic, adjoint (by expected contribution) or ears (by expected "
+      "variance and cost), the latter two with an optional limit to splitting as in ears:4; they learn "
+      "while rendering, and end where they do not pay (default: adjoint; classic with --integrator direct)");
   command.add_option("--sampler", options.sampler, "Random numbers: independent or sobol (default: the scene's)")
       ->check(memberOf<SamplerKind>());
   command.add_option("--threads", options.threads, "Number of threads; 0: all that the machine has")
@@ -300,7 +299,9 @@ RenderSettings renderSettings(const SamplingOptions& options, const SceneDescrip
   settings.nee = options.nee == "on";
   settings.heuristic = *valueOfLabel<MisHeuristic>(options.heuristic);
   settings.direct = directSettings(options.integrator);
-  settings.roulette = parseRoulette(options.roulette);
+  settings.roulette = parseRoulette(!options.roulette.empty() ? options.roulette
+                                    : settings.direct         ? "classic"
+                                                              : "adjoint");
   settings.guiding = guidingSettings(options);
   if (!options.field.empty() && !settings.guiding)
     throw InputError(

@@ -39,7 +39,7 @@ struct SamplingOptions {
   std::string guiding;       ///< preset or settings file; empty: as the integrator wants it
   std::string compensation;  ///< empty: as `guiding` says
   std::filesystem::path field;
-  std::string nee = "on", heuristic = "balance", roulette = "adjoint", environment, sampler;
+  std::string nee = "on", heuristic = "balance", roulette, environment, sampler;
   int threads = 0;
   std::uint64_t seed = 0;
 };
