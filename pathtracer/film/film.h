@@ -35,7 +35,7 @@ class Film {
 
   /// Adds what the same sample tells of the second moment that the pixel would have without a guide
   /// (PathWorker::unguidedSquare).
-  void addUnguidedSquare(int x, int y, float square) noexcept {
+  void addUnguidedSquare(int x, int y, double square) noexcept {
     m_pixels[std::size_t(y) * m_width + x].unguided2 += square;
   }
 

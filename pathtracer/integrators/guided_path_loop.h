@@ -106,7 +106,7 @@ Spectrum GuidedPathLoop<Guides>::trace(Ray ray, int, int, Sampler& sampler, Path
     if (!goesOn) break;
   }
   if (worker.reflections) worker.reflectionRecorder.closeTo(0, *worker.reflections);
-  const float unguided = luminance(Guides::kGuides ? path.unguidedRadiance : path.radiance);
+  const double unguided = luminance(Guides::kGuides ? path.unguidedRadiance : path.radiance);
   worker.unguidedSquare = worker.roulette.isLearned() ? 0 : unguided * unguided * path.likelihood;
   return path.radiance;
 }

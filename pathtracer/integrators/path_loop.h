@@ -43,7 +43,7 @@ struct PathWorker {
   /// Of the last path: squared luminance that BSDF sampling alone would have counted for it, times the path's density
   /// under BSDF sampling alone over its density here. Its mean is the second moment that a pixel would have without a
   /// guide. 0 (unknown) with learned roulette, which plays by the guided path.
-  float unguidedSquare = 0;
+  double unguidedSquare = 0;
 };
 
 /// Traces paths. Thread-safe, as long as no two threads share a worker or a pixel.
