@@ -114,8 +114,9 @@ TEST_CASE("By normal there is less variance than with the mean subtracted, and t
          return 0.1f + 40 * (spot(w, {1, 1, 0}, 200) + spot(w, {-1, 1, 0}, 200) + spot(w, {0, 1, 1}, 200) +
                              spot(w, {0, 1, -1}, 200));
        })}};
-  for (const auto& [name, map] : maps) {
-    CAPTURE(name);
+  for (const auto& named : maps) {
+    const auto& map = named.second;
+    CAPTURE(named.first);
     const auto tableOf = [&](EnvironmentCompensation form) {
       return std::move(EnvironmentTable::create(map.image(), {form, 0.5f})).value();
     };
