@@ -43,7 +43,7 @@ Imath::V3f jitterOf(const RadianceSample& s) noexcept {
 /// The leaf that learns from the sample.
 std::uint32_t learningLeaf(const Field::State& state, const RadianceSample& sample) noexcept {
   if (state.settings.spatialFilter == SpatialFilter::Nearest) return state.tree.leafAt(sample.position);
-  const Imath::V3f size = state.tree.leafSizeAt(sample.position);
+  const Imath::V3f size = state.tree.leafSize(state.tree.leafAt(sample.position));
   const Imath::V3f u = jitterOf(sample);
   Imath::V3f moved = sample.position + size * (u - Imath::V3f(0.5f));
   for (int axis = 0; axis < 3; ++axis)

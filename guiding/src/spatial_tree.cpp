@@ -1,6 +1,7 @@
 #include "spatial_tree.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace guiding {
 
@@ -10,23 +11,41 @@ SpatialTree::SpatialTree(const Imath::Box3f& bounds) : m_bounds(bounds) {
   if (!(extent > 0)) extent = 1;
   m_bounds.max = m_bounds.min + Imath::V3f(extent);
   m_scale = float(1 << kBitsPerAxis) / extent;
+  index();
 }
 
-Imath::V3f SpatialTree::leafSizeAt(const Imath::V3f& position) const noexcept {
-  std::uint64_t code = codeOf(position);
-  std::uint32_t node = 0;
+Imath::V3f SpatialTree::leafSize(std::uint32_t leaf) const noexcept {
   Imath::V3f size = m_bounds.size();
-  for (int axis = 0; !(m_nodes[node] & kLeafBit); axis = axis == 2 ? 0 : axis + 1) {
-    size[axis] *= 0.5f;
-    node = m_nodes[node] + std::uint32_t(code >> 63);
-    code <<= 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int halvings = (m_depths[leaf] + 2 - axis) / 3;
+    size[axis] *= std::bit_cast<float>(std::uint32_t(127 - halvings) << 23);  // 2^-halvings
   }
   return size;
 }
 
-int SpatialTree::depthBelow(std::uint32_t node) const noexcept {
+int SpatialTree::maxDepth() const noexcept {
+  return *std::max_element(m_depths.begin(), m_depths.end());
+}
+
+void SpatialTree::index() {
+  m_entries.resize(std::size_t(1) << kEntryDepth);
+  m_depths.resize(m_leafCount);
+  indexBelow(0, 0, 0);
+}
+
+/// `prefix`: the decisions from the root down to the node.
+void SpatialTree::indexBelow(std::uint32_t node, int depth, std::uint32_t prefix) {
   const std::uint32_t word = m_nodes[node];
-  return word & kLeafBit ? 0 : 1 + std::max(depthBelow(word), depthBelow(word + 1));
+  const bool isLeaf = word & kLeafBit;
+  if (isLeaf) m_depths[word & ~kLeafBit] = std::uint8_t(depth);
+  if (depth == kEntryDepth) m_entries[prefix] = node;
+  if (isLeaf && depth < kEntryDepth) {
+    const std::size_t count = std::size_t(1) << (kEntryDepth - depth);
+    std::fill_n(m_entries.begin() + std::ptrdiff_t(prefix * count), count, node);
+  }
+  if (isLeaf) return;
+  indexBelow(word, depth + 1, prefix * 2);
+  indexBelow(word + 1, depth + 1, prefix * 2 + 1);
 }
 
 std::vector<std::uint32_t> SpatialTree::split(const std::vector<int>& levels) {
@@ -50,6 +69,7 @@ std::vector<std::uint32_t> SpatialTree::split(const std::vector<int>& levels) {
     depth.insert(depth.end(), 2, depth[i] + 1);
     remaining.insert(remaining.end(), 2, left - 1);
   }
+  index();
   return origin;
 }
 
@@ -77,6 +97,7 @@ bool SpatialTree::assignNodes(std::vector<std::uint32_t> nodes) {
   if (leaves != seen.size()) return false;
   m_nodes = std::move(nodes);
   m_leafCount = leaves;
+  index();
   return true;
 }
 

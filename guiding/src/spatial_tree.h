@@ -22,23 +22,22 @@ class SpatialTree {
   /// Index of the leaf that contains the point; points outside belong to the nearest leaf.
   std::uint32_t leafAt(const Imath::V3f& position) const noexcept {
     std::uint64_t code = codeOf(position);
-    std::uint32_t node = 0;
-    while (!(m_nodes[node] & kLeafBit)) {
-      node = m_nodes[node] + std::uint32_t(code >> 63);
-      code <<= 1;
-    }
-    return m_nodes[node] & ~kLeafBit;
+    std::uint32_t word = m_nodes[m_entries[code >> (64 - kEntryDepth)]];
+    for (code <<= kEntryDepth; !(word & kLeafBit); code <<= 1) word = m_nodes[word + std::uint32_t(code >> 63)];
+    return word & ~kLeafBit;
   }
 
-  /// Edge lengths of the leaf that contains the point.
-  Imath::V3f leafSizeAt(const Imath::V3f& position) const noexcept;
+  /// Edge lengths of a leaf.
+  Imath::V3f leafSize(std::uint32_t leaf) const noexcept;
 
   bool contains(const Imath::V3f& position) const noexcept { return m_bounds.intersects(position); }
   const Imath::Box3f& bounds() const noexcept { return m_bounds; }  ///< the cube
 
   std::uint32_t leafCount() const noexcept { return m_leafCount; }
-  std::size_t memoryBytes() const noexcept { return m_nodes.capacity() * sizeof(std::uint32_t); }
-  int maxDepth() const noexcept { return depthBelow(0); }
+  std::size_t memoryBytes() const noexcept {
+    return (m_nodes.capacity() + m_entries.capacity()) * sizeof(std::uint32_t) + m_depths.capacity();
+  }
+  int maxDepth() const noexcept;
 
   /// Replaces every leaf i by 2^levels[i] leaves. Returns for each new leaf the old leaf it came from; the first child
   /// of a split leaf keeps its index.
@@ -52,13 +51,20 @@ class SpatialTree {
   static constexpr std::uint32_t kLeafBit = 0x80000000u;
 
  private:
+  /// Levels that a look-up passes at once.
+  static constexpr int kEntryDepth = 12;
+
   std::uint64_t codeOf(const Imath::V3f& position) const noexcept;
-  int depthBelow(std::uint32_t node) const noexcept;
+  void index();
+  void indexBelow(std::uint32_t node, int depth, std::uint32_t prefix);
 
   Imath::Box3f m_bounds;
   float m_scale;  ///< cells per unit length at full depth
   std::vector<std::uint32_t> m_nodes{kLeafBit};
   std::uint32_t m_leafCount = 1;
+  std::vector<std::uint32_t>
+      m_entries;                       ///< by the first bits of the code: the node at that depth, or the leaf above it
+  std::vector<std::uint8_t> m_depths;  ///< of every leaf
 };
 
 /// Spreads the low 21 bits of x to every third bit.

@@ -176,7 +176,8 @@ bool GuidedPathLoop<Guides>::pathEnds(const PathState& path, const SurfaceIntera
 template <GuideSource Guides>
 int GuidedPathLoop<Guides>::playRoulette(PathState& path, const SurfaceInteraction& si, Sampler& sampler,
                                          PathWorker& worker) const noexcept {
-  float factor = worker.roulette.splittingFactor(path, si, worker.pixelScale);
+  const Spectrum& unguided = Guides::kGuides ? path.unguidedThroughput : path.throughput;
+  float factor = worker.roulette.splittingFactor(path, unguided, si, worker.pixelScale);
   if (factor == 1) return 1;
   if (factor > 1 && factor > float(worker.branchesLeft)) {
     ++worker.counters.cappedSplits;
@@ -187,7 +188,7 @@ int GuidedPathLoop<Guides>::playRoulette(PathState& path, const SurfaceInteracti
   if (branches == 0) return 0;
 
   path.throughput /= factor;
-  path.unguidedThroughput /= factor;
+  if constexpr (Guides::kGuides) path.unguidedThroughput /= factor;
   if (worker.records) worker.recorder.survived(factor);
   if (branches > 1) {
     ++worker.counters.splits;
@@ -202,7 +203,7 @@ template <GuideSource Guides>
 void GuidedPathLoop<Guides>::absorb(PathState& path, float distance) const noexcept {
   path.arriving = path.media.transmittance(distance);
   path.throughput *= path.arriving;
-  path.unguidedThroughput *= path.arriving;
+  if constexpr (Guides::kGuides) path.unguidedThroughput *= path.arriving;
 }
 
 template <GuideSource Guides>
@@ -210,7 +211,7 @@ auto GuidedPathLoop<Guides>::sampleDirect(const PathState& path, const SurfaceIn
                                           const Distribution& guide, Sampler& sampler,
                                           PathWorker& worker) const noexcept -> DirectLight {
   const float uLight = sampler.next1D();
-  const DirectSample light = m_scene.sampleDirect(path.previous, uLight, sampler.next2D());
+  const LightSample light = m_scene.sampleDirect(path.previous, uLight, sampler.next2D());
   if (!(light.pdf > 0) || isBlack(light.radiance)) return {};
   const BsdfEvaluation f = bsdf.evaluate(light.wi);
   if (isBlack(f.bsdfCos)) return {};
@@ -242,7 +243,8 @@ bool GuidedPathLoop<Guides>::scatter(PathState& path, const SurfaceInteraction& 
   if (isBlack(draw.weight)) return false;
 
   path.throughput *= draw.weight;
-  path.unguidedThroughput *= draw.bsdfPdf > 0 ? draw.weight * (draw.pdf / draw.bsdfPdf) : draw.weight;
+  if constexpr (Guides::kGuides)
+    path.unguidedThroughput *= draw.bsdfPdf > 0 ? draw.weight * (draw.pdf / draw.bsdfPdf) : draw.weight;
   path.eta *= bsdf.etaCrossed(draw.wi);
   path.pdf = draw.pdf;
   path.bsdfPdf = draw.bsdfPdf;

@@ -15,8 +15,9 @@ namespace pt {
 struct PathState {
   Spectrum radiance{0.0f};  ///< found so far, by all branches
   Spectrum throughput{1.0f};
-  /// The throughput that BSDF sampling alone would have given this path. Classic roulette goes by it: a guide makes the
-  /// throughput small exactly where much light is expected, and those paths must live.
+  /// The throughput that BSDF sampling alone would have given this path; kept up where there is a guide. Classic
+  /// roulette goes by it: a guide makes the throughput small exactly where much light is expected, and those paths must
+  /// live.
   Spectrum unguidedThroughput{1.0f};
   Spectrum unguidedRadiance{0.0f};  ///< what BSDF sampling alone would have counted for this path
   float likelihood = 1;             ///< density of this path under BSDF sampling alone over its density here

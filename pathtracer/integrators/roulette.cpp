@@ -13,11 +13,11 @@ constexpr int kLongPath = 64;
 
 }  // namespace
 
-float Roulette::learned(const PathState& path, const SurfaceInteraction& si,
+float Roulette::learned(const PathState& path, const Spectrum& unguided, const SurfaceInteraction& si,
                         const Spectrum& pixelScale) const noexcept {
   const guiding::ReflectedRadiance* known =
       si.material->traits().hasSmooth ? m_knowledge->statistics.find(si.p) : nullptr;
-  if (!known) return classic(path);
+  if (!known) return classic(path, unguided);
 
   const Spectrum share = path.throughput * pixelScale;
   float factor = 1;

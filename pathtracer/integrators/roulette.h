@@ -39,21 +39,23 @@ class Roulette {
     return m_knowledge ? m_knowledge->pixelScale.at(x, y) : Spectrum(1.0f);
   }
 
-  /// Expected number of samples, > 0; below 1 the chance of survival.
-  float splittingFactor(const PathState& path, const SurfaceInteraction& si,
+  /// Expected number of samples, > 0; below 1 the chance of survival. `unguided` is the throughput that BSDF sampling
+  /// alone would have given the path.
+  float splittingFactor(const PathState& path, const Spectrum& unguided, const SurfaceInteraction& si,
                         const Spectrum& pixelScale) const noexcept {
-    return m_knowledge ? learned(path, si, pixelScale) : classic(path);
+    return m_knowledge ? learned(path, unguided, si, pixelScale) : classic(path, unguided);
   }
 
  private:
   static constexpr float kMostSurvival = 0.95f;
 
   /// The radiance carried shrinks by eta^2 at each refraction and may grow again at the next; roulette looks past that.
-  float classic(const PathState& path) const noexcept {
+  float classic(const PathState& path, const Spectrum& unguided) const noexcept {
     if (path.depth <= m_rrDepth) return 1;
-    return std::min(maxComponent(path.unguidedThroughput) * path.eta * path.eta, kMostSurvival);
+    return std::min(maxComponent(unguided) * path.eta * path.eta, kMostSurvival);
   }
-  float learned(const PathState& path, const SurfaceInteraction& si, const Spectrum& pixelScale) const noexcept;
+  float learned(const PathState& path, const Spectrum& unguided, const SurfaceInteraction& si,
+                const Spectrum& pixelScale) const noexcept;
 
   RouletteSettings m_settings;
   int m_rrDepth;

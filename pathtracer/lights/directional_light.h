@@ -14,12 +14,11 @@ class DirectionalEmitter : public Light {
   DirectionalEmitter(const Vec3& direction, const Spectrum& irradiance, double sceneRadius)
       : m_direction(direction), m_irradiance(irradiance), m_sceneRadius(sceneRadius) {}
 
-  bool isDelta() const noexcept override { return true; }
   double power() const noexcept override {
     return double(kPi) * m_sceneRadius * m_sceneRadius * luminance(m_irradiance);
   }
   LightSample sampleDirect(const Vec3&, double, const Vec2&) const noexcept override {
-    return {-m_direction, std::numeric_limits<float>::infinity(), m_irradiance, 1};
+    return {-m_direction, std::numeric_limits<float>::infinity(), m_irradiance, 1, true};
   }
   float pdfDirect(const Vec3&, const SurfaceInteraction&) const noexcept override { return 0; }
   Spectrum radiance(const SurfaceInteraction&, const Vec3&) const noexcept override { return Spectrum(0.0f); }

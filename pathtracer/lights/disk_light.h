@@ -12,7 +12,6 @@ class DiskLight : public Light {
   /// The disk outlives the light.
   DiskLight(const Disk& disk, const TexturedSpectrum& radiance);
 
-  bool isDelta() const noexcept override { return false; }
   double power() const noexcept override;
   LightSample sampleDirect(const Vec3& p, double uPart, const Vec2& u) const noexcept override;
   float pdfDirect(const Vec3& p, const SurfaceInteraction& hit) const noexcept override;

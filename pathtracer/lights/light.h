@@ -12,6 +12,7 @@ struct LightSample {
   float distance = 0;  ///< how far the way must be free: to the sampled point, less its rounding error; may be infinite
   Spectrum radiance{0.0f};  ///< for a delta light the irradiance at normal incidence
   float pdf = 0;            ///< per solid angle; 1 for a delta light; 0: no sample
+  bool isDelta = false;     ///< of a point or directional light, which no ray can meet: takes no MIS weight
 };
 
 /// Where light arrives. An estimate that is weighted against BSDF sampling asks Scene::receiver() for one, so that an
@@ -28,9 +29,6 @@ struct LightReceiver {
 class Light {
  public:
   virtual ~Light() = default;
-
-  /// A point or directional light, which no ray can meet: its samples take no MIS weight.
-  virtual bool isDelta() const noexcept = 0;
 
   /// Total power (luminance), for choosing among lights; > 0 for a light that emits.
   virtual double power() const noexcept = 0;
@@ -66,7 +64,6 @@ class EnvironmentLight : public Light {
   virtual float pdfFrom(std::uint32_t density, const Vec3& wi) const noexcept = 0;
 
   LightSample sampleDirect(const Vec3&, double, const Vec2& u) const noexcept override { return sample(0, u); }
-  bool isDelta() const noexcept override { return false; }
   float pdfDirect(const Vec3&, const SurfaceInteraction&) const noexcept override { return 0; }
   Spectrum radiance(const SurfaceInteraction&, const Vec3&) const noexcept override { return Spectrum(0.0f); }
 };

@@ -16,7 +16,6 @@ class MeshLight : public Light {
 
   double area() const noexcept { return m_area; }
 
-  bool isDelta() const noexcept override { return false; }
   double power() const noexcept override;
   LightSample sampleDirect(const Vec3& p, double uPart, const Vec2& u) const noexcept override;
   float pdfDirect(const Vec3& p, const SurfaceInteraction& hit) const noexcept override;

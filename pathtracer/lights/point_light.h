@@ -9,7 +9,6 @@ class PointEmitter : public Light {
  public:
   PointEmitter(const Vec3& position, const Spectrum& intensity) : m_position(position), m_intensity(intensity) {}
 
-  bool isDelta() const noexcept override { return true; }
   double power() const noexcept override { return 4 * double(kPi) * luminance(m_intensity); }
 
   LightSample sampleDirect(const Vec3& p, double, const Vec2&) const noexcept override {
@@ -21,6 +20,7 @@ class PointEmitter : public Light {
     result.distance = float(distance);
     result.radiance = m_intensity * float(1 / (distance * distance));
     result.pdf = 1;
+    result.isDelta = true;
     return result;
   }
   float pdfDirect(const Vec3&, const SurfaceInteraction&) const noexcept override { return 0; }

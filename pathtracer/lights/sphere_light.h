@@ -14,7 +14,6 @@ class SphereLight : public Light {
   /// The sphere outlives the light.
   SphereLight(const Sphere& sphere, const TexturedSpectrum& radiance) : m_sphere(sphere), m_radiance(radiance) {}
 
-  bool isDelta() const noexcept override { return false; }
   double power() const noexcept override;
   LightSample sampleDirect(const Vec3& p, double uPart, const Vec2& u) const noexcept override;
   float pdfDirect(const Vec3& p, const SurfaceInteraction& hit) const noexcept override;

@@ -16,7 +16,6 @@ class SpotEmitter : public Light {
 
   SpotEmitter(const Vec3& position, const Cone& cone, const Spectrum& intensity);
 
-  bool isDelta() const noexcept override { return true; }
   double power() const noexcept override;
   LightSample sampleDirect(const Vec3& p, double uPart, const Vec2& u) const noexcept override;
   float pdfDirect(const Vec3&, const SurfaceInteraction&) const noexcept override { return 0; }

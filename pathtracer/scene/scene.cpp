@@ -4,8 +4,6 @@
 
 #include "cameras/make_camera.h"
 #include "core/error.h"
-#include "core/hash.h"
-#include "core/ray_offset.h"
 #include "scene/scene_data.h"
 
 namespace pt {
@@ -42,11 +40,13 @@ void setPixelWidths(SceneData& data, const Camera& camera, const FilmDescription
     for (Surface& surface : group) surface.pixelUv = width * uvPerLength(surface);
 }
 
-/// u with 24 more bits below a float's: choices of probability far below 2^-24 keep it.
+/// u with 24 more bits below a float's: choices of probability far below 2^-24 keep it. The bits are a lattice over the
+/// independent numbers' own [multiplicative hashing, Knuth 1998, Sec. 6.4].
 double refine(float u, const Vec2& independent) noexcept {
-  const std::uint64_t bits =
-      combineHash(std::bit_cast<std::uint32_t>(independent.x), std::bit_cast<std::uint32_t>(independent.y));
-  return std::min(double(u) + double(bits >> 40) * 0x1p-48, 1 - 0x1p-48);
+  const std::uint64_t both =
+      std::uint64_t(std::bit_cast<std::uint32_t>(independent.x)) << 32 | std::bit_cast<std::uint32_t>(independent.y);
+  const std::uint64_t bits = (both ^ both >> 29) * 0x9e3779b97f4a7c15ull;
+  return double(u) + double(std::int64_t(bits >> 40)) * 0x1p-48;
 }
 
 }  // namespace
@@ -77,31 +77,24 @@ bool Scene::occluded(const Ray& ray) const noexcept {
   return m_data->accel->occluded(ray);
 }
 
-Ray Scene::spawnRay(const SurfaceInteraction& si, const Vec3& direction) const noexcept {
-  // Never in the surface itself, not even where it passes through the origin. So what lies at distance 0 is another
-  // surface, in whose plane the point was rounded: in a corner it keeps the light out.
-  const float size = std::max(si.offset, std::numeric_limits<float>::min());
-  return {si.p + si.ng * (si.ng.dot(direction) < 0 ? -size : size), direction, 0};
-}
-
 bool Scene::visible(const SurfaceInteraction& si, const LightSample& light) const noexcept {
   Ray ray = spawnRay(si, light.wi);
   ray.tMax = light.distance;
   return !occluded(ray);
 }
 
-LightReceiver Scene::receiver(const SurfaceInteraction& si) const noexcept {
-  if (!m_data->environment) return si.p;
-  return {si.p, m_data->environmentLeftToBsdf ? kOtherLights : m_data->environment->densityFor(si)};
+std::uint32_t Scene::environmentDensity(const SurfaceInteraction& si) const noexcept {
+  if (!m_data->environment) return 0;
+  return m_data->environmentLeftToBsdf ? kOtherLights : m_data->environment->densityFor(si);
 }
 
-DirectSample Scene::sampleDirect(const LightReceiver& receiver, float uLight, const Vec2& u) const noexcept {
+LightSample Scene::sampleDirect(const LightReceiver& receiver, float uLight, const Vec2& u) const noexcept {
   const LightSelection& lights = receiver.density == kOtherLights ? m_data->otherLights : m_data->selection;
   if (lights.empty()) return {};
   const LightSelection::Choice choice = lights.sample(refine(uLight, u));
-  DirectSample sample{choice.light == m_data->environment ? m_data->environment->sample(receiver.density, u)
-                                                          : choice.light->sampleDirect(receiver.p, choice.remainder, u),
-                      choice.light->isDelta()};
+  LightSample sample = choice.light == m_data->environment
+                           ? m_data->environment->sample(receiver.density, u)
+                           : choice.light->sampleDirect(receiver.p, choice.remainder, u);
   sample.pdf *= choice.pmf;
   return sample;
 }

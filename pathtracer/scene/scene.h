@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,11 +33,6 @@ struct SceneCounts {
   std::size_t memoryBytes = 0;  ///< geometry, accelerator and textures
 };
 
-/// A light chosen for next-event estimation and the point sampled on it.
-struct DirectSample : LightSample {
-  bool isDelta = false;  ///< pdf already includes the probability of choosing the light
-};
-
 struct SceneData;
 
 /// Built, immutable and thread-safe. A scene that lies far from its origin is moved there, so that floats keep their
@@ -55,16 +51,21 @@ class Scene {
   bool occluded(const Ray& ray) const noexcept;
 
   /// A ray leaving the surface towards `direction`, its origin moved off the surface by its numerical error bound.
-  Ray spawnRay(const SurfaceInteraction& si, const Vec3& direction) const noexcept;
+  Ray spawnRay(const SurfaceInteraction& si, const Vec3& direction) const noexcept {
+    // Never in the surface itself, not even where it passes through the origin. So what lies at distance 0 is another
+    // surface, in whose plane the point was rounded: in a corner it keeps the light out.
+    const float size = std::max(si.offset, std::numeric_limits<float>::min());
+    return {si.p + si.ng * (si.ng.dot(direction) < 0 ? -size : size), direction, 0};
+  }
 
   /// Whether light sampled from `si` arrives.
   bool visible(const SurfaceInteraction& si, const LightSample& light) const noexcept;
 
   /// For light sampling at `si` that is weighted against sampling the BSDF there.
-  LightReceiver receiver(const SurfaceInteraction& si) const noexcept;
+  LightReceiver receiver(const SurfaceInteraction& si) const noexcept { return {si.p, environmentDensity(si)}; }
 
-  /// Chooses a light by power and samples it. u in [0,1)^2. pdf 0: no sample.
-  DirectSample sampleDirect(const LightReceiver& receiver, float uLight, const Vec2& u) const noexcept;
+  /// Chooses a light by power and samples it; the density includes that of the choice. u in [0,1)^2. pdf 0: no sample.
+  LightSample sampleDirect(const LightReceiver& receiver, float uLight, const Vec2& u) const noexcept;
   /// Density of sampleDirect for the emitter that a ray from the receiver met at `hit`.
   float pdfDirect(const LightReceiver& receiver, const SurfaceInteraction& hit) const noexcept;
   /// Density of sampleDirect for a ray from the receiver that left the scene towards wi.
@@ -82,6 +83,8 @@ class Scene {
   const SceneCounts& counts() const noexcept { return m_counts; }
 
  private:
+  std::uint32_t environmentDensity(const SurfaceInteraction& si) const noexcept;
+
   std::unique_ptr<SceneData> m_data;  ///< not changed once the scene is built
   std::unique_ptr<Camera> m_camera;
   SceneFeatures m_features;

@@ -5,10 +5,10 @@
 namespace pt {
 namespace {
 
-/// A hit in the space of its shape; normals need not be of unit length.
+/// A hit in the space of its shape.
 struct LocalHit {
   Imath::V3d p;
-  Vec3 ng, ns;
+  Vec3 ng, ns;  ///< of unit length
   Vec2 uv{0, 0};
 };
 
@@ -46,7 +46,7 @@ LocalHit triangleHit(const Mesh& mesh, const AccelHit& hit) {
   const float w = 1 - hit.u - hit.v;
   if (mesh.hasNormals()) {
     const Vec3 ns = mesh.normal(a) * w + mesh.normal(b) * hit.u + mesh.normal(c) * hit.v;
-    if (isUsable(ns)) local.ns = ns;
+    if (isUsable(ns)) local.ns = unit(Imath::V3d(ns));
   }
   return local;
 }
@@ -196,12 +196,11 @@ void completeInteraction(const Surface& surface, const Instance* instance, const
   if (instance) {
     local.p = instance->toWorld.point(local.p);
     local.ng = unit(instance->toWorld.normal(Imath::V3d(local.ng)));
-    local.ns = Vec3(instance->toWorld.normal(Imath::V3d(local.ns)));
+    local.ns = unit(instance->toWorld.normal(Imath::V3d(local.ns)));
   }
-  const Vec3 ns = unit(Imath::V3d(local.ns));
   si.p = Vec3(local.p);
-  si.ng = local.ng.dot(ns) < 0 ? -local.ng : local.ng;
-  si.frame = Frame(ns);
+  si.ng = local.ng.dot(local.ns) < 0 ? -local.ng : local.ng;
+  si.frame = Frame(local.ns);
   if (surface.needsTangents) addTangents(surface, instance, hit, hitPoint, si);
   si.offset = surfaceOffset(si.p, si.ng);
   if (instance) si.offset += instance->error * (maxAbs(si.p) + maxAbs(Vec3(instance->toWorld.translation())));

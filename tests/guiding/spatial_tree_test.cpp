@@ -65,7 +65,7 @@ TEST_CASE("A new tree is one leaf over a cube from the lower corner") {
   CHECK(tree.maxDepth() == 0);
   CHECK(tree.bounds().min == Imath::V3f(-1, 2, 3));
   CHECK(tree.bounds().max == Imath::V3f(4, 7, 8));
-  CHECK(tree.leafSizeAt({0, 3, 3}) == Imath::V3f(5));
+  CHECK(tree.leafSize(tree.leafAt({0, 3, 3})) == Imath::V3f(5));
 }
 
 TEST_CASE("Splits halve along x, y, z in turn; the first child keeps the index") {
@@ -82,8 +82,8 @@ TEST_CASE("Splits halve along x, y, z in turn; the first child keeps the index")
   for (const float y : {0.1f, 0.9f})
     for (const float z : {0.1f, 0.9f}) seen[tree.leafAt({0.9f, y, z})] = true;
   CHECK(seen == std::vector<bool>{false, true, true, true, true});
-  CHECK(tree.leafSizeAt({0.9f, 0.1f, 0.1f}) == Imath::V3f(0.5f));
-  CHECK(tree.leafSizeAt({0.1f, 0.1f, 0.1f}) == Imath::V3f(0.5f, 1, 1));
+  CHECK(tree.leafSize(tree.leafAt({0.9f, 0.1f, 0.1f})) == Imath::V3f(0.5f));
+  CHECK(tree.leafSize(tree.leafAt({0.1f, 0.1f, 0.1f})) == Imath::V3f(0.5f, 1, 1));
 }
 
 TEST_CASE("A leaf of n levels becomes 2^n leaves that come from it") {
@@ -130,7 +130,7 @@ TEST_CASE("In the unit cube look-up is exact, on borders too") {
     wrong += tree.leafAt(corner) != leaf.index;
     const Imath::V3d last = leaf.max - Imath::V3d(0x1p-21);
     wrong += tree.leafAt(Imath::V3f(last)) != leaf.index;
-    wrong += Imath::V3d(tree.leafSizeAt(corner)) != leaf.max - leaf.min;
+    wrong += Imath::V3d(tree.leafSize(tree.leafAt(corner))) != leaf.max - leaf.min;
   }
   CHECK(wrong == 0);
 }

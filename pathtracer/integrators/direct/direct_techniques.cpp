@@ -42,7 +42,7 @@ TechniqueDraw DirectTechniques::drawLight(const SurfaceInteraction& si, const Su
                                           RenderCounters& counters) const noexcept {
   const TechniqueDraw nothing{Spectrum(0.0f), kLightAlone};
   const float uLight = sampler.next1D();
-  const DirectSample light = m_scene.sampleDirect(m_scene.receiver(si), uLight, sampler.next2D());
+  const LightSample light = m_scene.sampleDirect(m_scene.receiver(si), uLight, sampler.next2D());
   if (!(light.pdf > 0) || isBlack(light.radiance)) return nothing;
   const BsdfEvaluation f = bsdf.evaluate(light.wi);
   if (isBlack(f.bsdfCos)) return nothing;

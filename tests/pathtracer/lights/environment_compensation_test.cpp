@@ -37,7 +37,7 @@ test::RunningMean irradiance(const Surface& surface, int samples, double spoil =
   for (int i = 0; i < samples; ++i) {
     double sum = 0;
     const float uLight = random.next1D();
-    const DirectSample light = scene.sampleDirect(receiver, uLight, random.next2D());
+    const LightSample light = scene.sampleDirect(receiver, uLight, random.next2D());
     const float lightCosine = si.frame.n.dot(light.wi);
     if (light.pdf > 0 && lightCosine > 0 && scene.visible(si, light))
       sum += spoil * light.radiance.y * lightCosine / light.pdf *

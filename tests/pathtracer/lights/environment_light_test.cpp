@@ -24,7 +24,7 @@ std::string errorOf(const SceneDescription& description) {
   return {};
 }
 
-DirectSample sample(const Scene& scene, test::Random& random) {
+LightSample sample(const Scene& scene, test::Random& random) {
   const float uLight = random.next1D();
   return scene.sampleDirect(kOrigin, uLight, random.next2D());
 }
@@ -36,7 +36,7 @@ TEST_CASE("Samples of a turned environment map follow their density") {
   map.toWorld = test::skewed();
   const Scene scene(under(map));
   const auto draw = [&](test::Random& random) -> std::optional<Vec3> {
-    const DirectSample s = sample(scene, random);
+    const LightSample s = sample(scene, random);
     if (!(s.pdf > 0)) return std::nullopt;
     return s.wi;
   };
@@ -56,7 +56,7 @@ TEST_CASE("A sample of an environment map carries the radiance and the density o
   const Scene scene(under(map));
   test::Random random(1);
   for (int i = 0; i < 20'000; ++i) {
-    const DirectSample s = sample(scene, random);
+    const LightSample s = sample(scene, random);
     REQUIRE(s.pdf > 0);
     REQUIRE(s.pdf == scene.pdfEnvironment(kOrigin, s.wi));
     REQUIRE(s.radiance == scene.environment()->radianceFrom(s.wi));
@@ -90,7 +90,7 @@ TEST_CASE("Light sampling of an environment map and uniform directions give the 
   test::Random random(1);
   test::RunningMean bySampling, byChance;
   for (int i = 0; i < 200'000; ++i) {
-    const DirectSample s = sample(scene, random);
+    const LightSample s = sample(scene, random);
     bySampling.add(s.pdf > 0 ? std::max(0.0f, n.dot(s.wi)) * s.radiance.y / s.pdf : 0.0f);
     const Vec3 w = squareToUniformSphere(random.next2D());
     byChance.add(std::max(0.0f, n.dot(w)) * scene.environment()->radianceFrom(w).y / kUniformSpherePdf);
