@@ -10,8 +10,9 @@
 /// unbiased for every s > 0. `share` is the path's throughput over the expected value of its pixel, per channel.
 namespace guiding {
 
-/// Least chance of survival [Rath et al. 2022, authors' code].
-inline constexpr float kMinSplittingFactor = 0.05f;
+/// Least chance of survival. The authors of efficiency-aware roulette take 0.05; what is expected of a place is known
+/// so roughly that paths ended with such confidence come back as fireflies (bench/README.md).
+inline constexpr float kMinSplittingFactor = 0.5f;
 
 /// Adjoint-driven Russian roulette and splitting [Vorba & Křivánek 2016]: keeps the path's expected contribution, as a
 /// share of its pixel, in a window about 1 whose ends have the ratio `window` > 1 (the authors': 5). In
