@@ -29,6 +29,18 @@ int SpatialTree::depthBelow(std::uint32_t node) const noexcept {
   return word & kLeafBit ? 0 : 1 + std::max(depthBelow(word), depthBelow(word + 1));
 }
 
+std::vector<int> SpatialTree::leafDepths() const {
+  std::vector<int> depth(m_nodes.size(), 0), ofLeaf(m_leafCount);
+  for (std::size_t i = 0; i < m_nodes.size(); ++i) {  // children stand behind their parents
+    const std::uint32_t word = m_nodes[i];
+    if (word & kLeafBit)
+      ofLeaf[word & ~kLeafBit] = depth[i];
+    else
+      depth[word] = depth[word + 1] = depth[i] + 1;
+  }
+  return ofLeaf;
+}
+
 std::vector<std::uint32_t> SpatialTree::split(const std::vector<int>& levels) {
   std::vector<std::uint32_t> origin(m_leafCount);
   for (std::uint32_t i = 0; i < m_leafCount; ++i) origin[i] = i;

@@ -15,6 +15,7 @@ class SpatialTree {
  public:
   static constexpr int kBitsPerAxis = 21;
   static constexpr int kMaxDepth = 3 * kBitsPerAxis;
+  static constexpr std::uint32_t kMaxLeaves = 1u << 30;  ///< 31 bits number the nodes
 
   /// One leaf, index 0. `bounds` is enlarged to a cube from its lower corner.
   explicit SpatialTree(const Imath::Box3f& bounds);
@@ -39,9 +40,10 @@ class SpatialTree {
   std::uint32_t leafCount() const noexcept { return m_leafCount; }
   std::size_t memoryBytes() const noexcept { return m_nodes.capacity() * sizeof(std::uint32_t); }
   int maxDepth() const noexcept { return depthBelow(0); }
+  std::vector<int> leafDepths() const;  ///< splits above each leaf
 
-  /// Replaces every leaf i by 2^levels[i] leaves. Returns for each new leaf the old leaf it came from; the first child
-  /// of a split leaf keeps its index.
+  /// Replaces every leaf i by 2^levels[i] leaves, at most kMaxLeaves in all. Returns for each new leaf the old leaf it
+  /// came from; the first child of a split leaf keeps its index.
   std::vector<std::uint32_t> split(const std::vector<int>& levels);
 
   /// Node words: kLeafBit | leaf index, or the index of the first of two children. For writing and reading fields.
