@@ -161,7 +161,7 @@ Json parseFile(const std::filesystem::path& file) {
   if (!stream) throw pt::InputError(fmt::format("{}: cannot be opened; give a plan (JSON)", file.string()));
   try {
     return Json::parse(stream);
-  } catch (const Json::parse_error& error) {
+  } catch (const Json::exception& error) {  // malformed, or a number too large
     const std::string what = error.what();  // "[json.exception....] parse error at line 1, column 2: ..."
     throw pt::InputError(fmt::format("{}: {}", file.string(), what.substr(std::min(what.size(), what.find("] ") + 2))));
   }

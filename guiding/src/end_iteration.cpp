@@ -95,13 +95,14 @@ void publish(NextState& next, std::vector<FrozenLeaf>& frozen) {
 }
 
 /// How often each leaf is halved: until its share of the samples falls below the threshold of the coming iteration,
-/// which has twice the passes [Müller et al. 2017, Sec. 3.3], and never below one sample.
+/// which has twice the passes [Müller et al. 2017, Sec. 3.3], and never below one sample or beyond the tree's depth.
 std::vector<int> splitLevels(const Field::State& state, double spp) {
   const double threshold = std::max(1.0, state.settings.sTreeThreshold * std::sqrt(2 * spp / 4));
+  const std::vector<std::uint8_t>& depths = state.tree.leafDepths();
   std::vector<int> levels(state.leaves.size(), 0);
   for (std::size_t leaf = 0; leaf < levels.size(); ++leaf)
     for (double count = double(state.leaves[leaf].sampleCount);
-         count > threshold && levels[leaf] < SpatialTree::kMaxDepth; count /= 2)
+         count > threshold && depths[leaf] + levels[leaf] < SpatialTree::kMaxDepth; count /= 2)
       ++levels[leaf];
   return levels;
 }
@@ -122,17 +123,28 @@ double bytesOfSplits(const NextState& next, const std::vector<int>& levels) {
   return bytes;
 }
 
-/// Takes back levels of splitting, everywhere alike, until the field stays below its cap as far as can be foreseen.
+double leavesAfter(const std::vector<int>& levels) {
+  double leaves = 0;
+  for (const int level : levels) leaves += std::exp2(level);
+  return leaves;
+}
+
+/// Takes back levels of splitting, everywhere alike, until the field stays below its cap as far as can be foreseen, and
+/// below what the tree can number.
 void respectMemoryCap(NextState& next, std::size_t cap, std::vector<int>& levels) {
-  if (cap == 0) return;
   const double bytes = double(next.memoryBytes());
-  while (bytes + bytesOfSplits(next, levels) > double(cap) && *std::max_element(levels.begin(), levels.end()) > 0) {
+  const auto isTooMuch = [&] {
+    return leavesAfter(levels) > double(SpatialTree::kMaxLeaves) ||
+           (cap > 0 && bytes + bytesOfSplits(next, levels) > double(cap));
+  };
+  while (isTooMuch() && *std::max_element(levels.begin(), levels.end()) > 0) {
     next.memoryCapReached = true;
     for (int& level : levels) level = std::max(0, level - 1);
   }
 }
 
 void splitLeaves(NextState& next, const std::vector<int>& levels) {
+  next.leaves.reserve(std::size_t(leavesAfter(levels)));  // at once: what is far too much fails before it is begun
   const std::vector<std::uint32_t> origin = next.tree.split(levels);
   const std::size_t before = next.leaves.size();
   next.leaves.resize(origin.size());

@@ -19,20 +19,17 @@ namespace guiding {
 template <class Body>
 void parallelFor(std::size_t count, std::size_t grain, const Body& body) {
   TaskOrder order;
-  order.beforeAll();
   tbb::this_task_arena::isolate([&] {
     tbb::task_group_context context(tbb::task_group_context::isolated,
                                     tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings);
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, grain),
         [&](const tbb::blocked_range<std::size_t>& range) {
-          order.taskBegins();
+          const TaskOrder::Task task(order);
           for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
-          order.taskEnds();
         },
         context);
   });
-  order.afterAll();
 }
 
 }  // namespace guiding

@@ -126,7 +126,14 @@ bool TrainingSchedule::trainingShouldEnd() const {
 
 std::vector<double> TrainingSchedule::imageWeights() const {
   if (m_iterations.empty()) return {};
-  return m_settings.combination == SampleCombination::InverseVariance ? inverseVarianceWeights() : lastWeights();
+  if (m_settings.combination != SampleCombination::InverseVariance) return lastWeights();
+  return inverseVarianceWeights([](const IterationOutcome& outcome) { return outcome.variance; });
+}
+
+std::vector<double> TrainingSchedule::imageWeights(int half) const {
+  if (m_iterations.empty()) return {};
+  if (m_settings.combination != SampleCombination::InverseVariance) return lastWeights();
+  return inverseVarianceWeights([half](const IterationOutcome& outcome) { return outcome.halfVariance[1 - half]; });
 }
 
 std::vector<double> TrainingSchedule::lastWeights() const {
@@ -148,24 +155,27 @@ std::vector<double> TrainingSchedule::lastWeights() const {
   return weights;
 }
 
-std::vector<double> TrainingSchedule::inverseVarianceWeights() const {
+template <class VarianceOf>
+std::vector<double> TrainingSchedule::inverseVarianceWeights(VarianceOf&& varianceOf) const {
   const std::size_t count = m_iterations.size();
   const std::size_t first = count - std::min<std::size_t>(count, std::size_t(m_settings.combinedIterations));
+  // A short iteration that missed what is rare looks better than it is. Guides improve from iteration to iteration, so
+  // no sample may count more than one of a later iteration. One of an iteration that looks exact, or of which nothing
+  // is known, counts as much as one of the next, and of the last ones as one of those before.
+  std::vector<double> variancePerSample(count, 0);
+  double largest = 0;
+  for (std::size_t i = count; i-- > first;) {
+    const double variance = varianceOf(m_iterations[i].outcome) * double(m_iterations[i].outcome.spp);
+    if (variance > 0 && std::isfinite(variance)) largest = std::max(largest, variance);
+    variancePerSample[i] = largest;
+  }
+  const auto known = std::find_if(variancePerSample.rbegin(), variancePerSample.rend(), [](double v) { return v > 0; });
+  std::fill(variancePerSample.rbegin(), known, known == variancePerSample.rend() ? 1.0 : *known);
+
   std::vector<double> weights(count, 0);
   double total = 0;
-  // A short iteration that missed what is rare looks better than it is. Guides improve from iteration to iteration, so
-  // no sample may count more than one of a later iteration.
-  double variancePerSample = 0;
-  for (std::size_t i = count; i-- > first;) {
-    const IterationOutcome& outcome = m_iterations[i].outcome;
-    if (!(outcome.variance > 0)) continue;
-    variancePerSample = std::max(variancePerSample, outcome.variance * double(outcome.spp));
-    total += weights[i] = double(outcome.spp) / variancePerSample;
-  }
-  if (!(total > 0) || !std::isfinite(total)) {  // no variance known, or none at all: every sample counts the same
-    total = 0;
-    for (std::size_t i = first; i < count; ++i) total += weights[i] = double(m_iterations[i].outcome.spp);
-  }
+  for (std::size_t i = first; i < count; ++i)
+    total += weights[i] = double(m_iterations[i].outcome.spp) * (variancePerSample.back() / variancePerSample[i]);
   if (!(total > 0)) weights.back() = total = 1;
   for (double& w : weights) w /= total;
   return weights;

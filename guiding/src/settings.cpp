@@ -57,7 +57,7 @@ Status FieldSettings::validate() const {
     return outOfRange("compensation.form is not one of its values");
   // Negated comparisons, so that NaN fails too.
   if (!(sTreeThreshold >= 1)) return outOfRange("sTreeThreshold must be at least 1");
-  if (!(dTreeThreshold > 0 && dTreeThreshold < 1)) return outOfRange("dTreeThreshold must lie in (0, 1)");
+  if (!(dTreeThreshold >= 1e-4f && dTreeThreshold < 1)) return outOfRange("dTreeThreshold must lie in [1e-4, 1)");
   if (maxDTreeDepth < 1 || maxDTreeDepth > 20) return outOfRange("maxDTreeDepth must lie in [1, 20]");
   if (!(bsdfSamplingFraction > 0 && bsdfSamplingFraction <= 1))
     return outOfRange("bsdfSamplingFraction must lie in (0, 1]");

@@ -15,6 +15,7 @@ class SpatialTree {
  public:
   static constexpr int kBitsPerAxis = 21;
   static constexpr int kMaxDepth = 3 * kBitsPerAxis;
+  static constexpr std::uint32_t kMaxLeaves = 1u << 30;  ///< 31 bits number the nodes
 
   /// One leaf, index 0. `bounds` is enlarged to a cube from its lower corner.
   explicit SpatialTree(const Imath::Box3f& bounds);
@@ -38,9 +39,10 @@ class SpatialTree {
     return (m_nodes.capacity() + m_entries.capacity()) * sizeof(std::uint32_t) + m_depths.capacity();
   }
   int maxDepth() const noexcept;
+  const std::vector<std::uint8_t>& leafDepths() const noexcept { return m_depths; }  ///< splits above each leaf
 
-  /// Replaces every leaf i by 2^levels[i] leaves. Returns for each new leaf the old leaf it came from; the first child
-  /// of a split leaf keeps its index.
+  /// Replaces every leaf i by 2^levels[i] leaves, at most kMaxLeaves in all. Returns for each new leaf the old leaf it
+  /// came from; the first child of a split leaf keeps its index.
   std::vector<std::uint32_t> split(const std::vector<int>& levels);
 
   /// Node words: kLeafBit | leaf index, or the index of the first of two children. For writing and reading fields.

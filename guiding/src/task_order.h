@@ -7,32 +7,44 @@
 namespace guiding {
 
 /// Tells ThreadSanitizer what it cannot see in a oneTBB that is not instrumented: tasks start after what went before
-/// them and end before what follows them. Tasks among themselves stay unordered, so that their races are found. Nothing
-/// in other builds.
+/// them and end, be it by an exception, before what follows them. It lives as long as they may; each of them has a Task
+/// while it runs. Tasks among themselves stay unordered, so that their races are found. Nothing in other builds.
 class TaskOrder {
  public:
-#ifdef __SANITIZE_THREAD__
-  void beforeAll() noexcept {
-    __tsan_release(&m_start);
-  }
-  void taskBegins() noexcept {
-    __tsan_acquire(&m_start);
-  }
-  void taskEnds() noexcept {
-    __tsan_release(&m_end);
-  }
-  void afterAll() noexcept {
-    __tsan_acquire(&m_end);
-  }
+  TaskOrder() noexcept { release(m_start); }
+  ~TaskOrder() { acquire(m_end); }
+  TaskOrder(const TaskOrder&) = delete;
+  TaskOrder& operator=(const TaskOrder&) = delete;
+
+  class Task {
+   public:
+    explicit Task(TaskOrder& order) noexcept : m_order(order) { acquire(m_order.m_start); }
+    ~Task() { release(m_order.m_end); }
+    Task(const Task&) = delete;
+    Task& operator=(const Task&) = delete;
+
+   private:
+    TaskOrder& m_order;
+  };
 
  private:
-  char m_start = 0, m_end = 0;
-#else
-  void beforeAll() noexcept {}
-  void taskBegins() noexcept {}
-  void taskEnds() noexcept {}
-  void afterAll() noexcept {}
+  struct Point {
+#ifdef __SANITIZE_THREAD__
+    char address = 0;
 #endif
+  };
+  static void release([[maybe_unused]] Point& point) noexcept {
+#ifdef __SANITIZE_THREAD__
+    __tsan_release(&point.address);
+#endif
+  }
+  static void acquire([[maybe_unused]] Point& point) noexcept {
+#ifdef __SANITIZE_THREAD__
+    __tsan_acquire(&point.address);
+#endif
+  }
+
+  Point m_start, m_end;
 };
 
 }  // namespace guiding

@@ -85,7 +85,10 @@ Status validateState(const Field::State& state) {
   const int maxDepth = state.settings.maxDTreeDepth;
   if (state.leaves.size() != state.tree.leafCount() || state.densityOfLeaf.size() != state.leaves.size())
     return violation("number of spatial leaves", state.leaves.size());
+  std::uint64_t uncounted = state.samples;
   for (std::size_t leaf = 0; leaf < state.leaves.size(); ++leaf) {
+    if (state.leaves[leaf].sampleCount > uncounted) return violation("samples of spatial leaf", leaf);
+    uncounted -= state.leaves[leaf].sampleCount;
     const Status building = validateBuilding(state.leaves[leaf], leaf, maxDepth);
     if (!building) return building;
     if (state.leaves[leaf].building.learnsBsdf() != (state.settings.target == LearningTarget::Product))

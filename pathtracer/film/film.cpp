@@ -88,6 +88,18 @@ double Film::meanVariance() const {
   return m_pixels.empty() ? 0 : sum / double(m_pixels.size());
 }
 
+std::array<double, 2> Film::halfVariance() const {
+  std::array<double, 2> sum{}, count{};
+  for (int y = 0; y < m_height; ++y)
+    for (int x = 0; x < m_width; ++x) {
+      const Pixel& p = m_pixels[std::size_t(y) * m_width + x];
+      sum[halfOf(x, y)] += variance(p, p.luminance2);
+      ++count[halfOf(x, y)];
+    }
+  for (int half = 0; half < 2; ++half) sum[half] /= std::max(count[half], 1.0);
+  return sum;
+}
+
 Film::RelativeVariance Film::relativeVariance(const Image& levelSum, double spp) const {
   std::vector<double> squaredLevel(m_pixels.size());
   std::transform(levelSum.pixels.begin(), levelSum.pixels.end(), squaredLevel.begin(), [spp](const Spectrum& sum) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -45,6 +46,10 @@ class Film {
   Image mean() const;
   /// Mean over pixels of the unbiased variance of the pixel's mean, luminance; 0 for fewer than 2 samples a pixel.
   double meanVariance() const;
+  /// The same over the pixels of each colour of a checkerboard (halfOf) alone.
+  std::array<double, 2> halfVariance() const;
+  /// Pixels of one half tell nothing of those of the other.
+  static int halfOf(int x, int y) noexcept { return (x + y) & 1; }
   struct RelativeVariance {
     double here = 0;      ///< of this film's samples
     double unguided = 0;  ///< of as many samples without a guide, as addUnguidedSquare() predicts; black without it

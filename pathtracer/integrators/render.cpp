@@ -38,7 +38,7 @@ class RenderRun {
   void closeIteration(const guiding::IterationPlan& plan, bool guided);
   void endGuideIteration();
   guiding::IterationOutcome outcomeSoFar() const;
-  std::vector<double> imageWeights() const;
+  ImageWeights imageWeights() const;
   Image sumSoFar() const;
   Image imageSoFar(const guiding::IterationPlan& plan) const;
   void callHooks(const guiding::IterationPlan& plan) const;
@@ -196,11 +196,17 @@ void RenderRun::endGuideIteration() {
 /// The schedule's cost of an iteration starts where the rendering of the one before ended: the freezing between them is
 /// paid for the later one.
 guiding::IterationOutcome RenderRun::outcomeSoFar() const {
-  return {m_sppOfIteration, m_film.meanVariance(), m_clock.seconds() - m_renderingEnd};
+  guiding::IterationOutcome outcome{m_sppOfIteration, m_film.meanVariance(), m_clock.seconds() - m_renderingEnd};
+  outcome.halfVariance = m_film.halfVariance();
+  return outcome;
 }
 
-std::vector<double> RenderRun::imageWeights() const {
-  return m_schedule ? m_schedule->imageWeights() : std::vector<double>{1.0};
+ImageWeights weightsBy(const guiding::TrainingSchedule& schedule) {
+  return {schedule.imageWeights(0), schedule.imageWeights(1)};
+}
+
+ImageWeights RenderRun::imageWeights() const {
+  return m_schedule ? weightsBy(*m_schedule) : ImageWeights{{{1.0}, {1.0}}};
 }
 
 /// Sum of all samples of each pixel, whatever the weight of their iteration.
@@ -215,9 +221,9 @@ Image RenderRun::imageSoFar(const guiding::IterationPlan& plan) const {
   if (!m_schedule) return m_film.mean();
   guiding::TrainingSchedule schedule = *m_schedule;
   schedule.report(plan, outcomeSoFar());
-  const std::vector<double> weights = schedule.imageWeights();
+  const ImageWeights weights = weightsBy(schedule);
   Image image = m_images.combined(weights);
-  if (weights.back() > 0) addWeighted(image, m_film.mean(), weights.back());
+  addWeighted(image, m_film.mean(), {weights[0].back(), weights[1].back()});
   return image;
 }
 
@@ -241,11 +247,11 @@ bool RenderRun::timeIsOver() const {
 
 RenderResult RenderRun::finish() {
   RenderResult result;
-  const std::vector<double> weights = imageWeights();
+  const ImageWeights weights = imageWeights();
   result.image = m_images.combined(weights);
   if (m_aovs) result.aovs = m_aovs->images();
   if (m_settings.aovs.variance) result.aovs.variance = m_images.combinedVariance(weights);
-  for (std::size_t i = 0; i < m_iterations.size(); ++i) m_iterations[i].weight = weights[i];
+  for (std::size_t i = 0; i < m_iterations.size(); ++i) m_iterations[i].weight = (weights[0][i] + weights[1][i]) / 2;
   result.iterations = std::move(m_iterations);
   result.counters = m_passes.counters();
   result.counters.rejectedSamples = m_rejectedSamples;

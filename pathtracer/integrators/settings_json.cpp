@@ -214,7 +214,7 @@ GuidingSettings loadGuidingSettings(const std::filesystem::path& file) {
   Json json;
   try {
     json = Json::parse(stream);
-  } catch (const Json::parse_error& error) {
+  } catch (const Json::exception& error) {  // malformed, or a number too large
     const std::string what = error.what();  // "[json.exception....] parse error at line 1, column 2: ..."
     throw InputError(fmt::format("{}: {}", file.string(), what.substr(std::min(what.size(), what.find("] ") + 2))));
   }

@@ -128,6 +128,12 @@ TEST_CASE("a broken plan gives one line with the JSON pointer") {
     plan["baseline"] = "guidde";
     CHECK(complaint(plan) == "#/baseline: no variant 'guidde'; did you mean 'guided'?");
   }
+  SECTION("a number too large") {
+    const std::filesystem::path file = std::filesystem::current_path() / "too_large.json";
+    std::ofstream(file) << R"({"seeds": 3e3333})";
+    CHECK_THROWS_WITH(bench::loadPlan(file), Catch::Contains("number overflow parsing '3e3333'"));
+    std::filesystem::remove(file);
+  }
   SECTION("too few parts to estimate an error from") {
     plan["scenes"][0]["reference"]["main"]["parts"] = 1;
     CHECK(complaint(plan) == "#/scenes/0/reference/main/parts: 1 lies outside [4, 10000]");

@@ -39,7 +39,7 @@ void use(guiding::Field& field) {
     buffer.add({place, wi, 1, 1, 1, 1, 0, 1});
   }
   require(field.accumulate(buffer).ok());
-  if (field.stats().samples > 1'000'000) return;  // refining by what it claims to have seen takes its time
+  if (field.stats().samples > 100'000) return;  // refining by what it claims to have seen takes its time
   require(field.endIteration(4).ok());
   require(field.validate().ok());
 }

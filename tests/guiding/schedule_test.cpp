@@ -1,10 +1,13 @@
 #include "guiding/schedule.h"
 
+#include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <random>
 
 #include "catch.h"
+#include "statistics/z_test.h"
 
 using namespace guiding;
 
@@ -182,6 +185,66 @@ TEST_CASE("A short iteration that looks too good counts no more a sample than a 
   CHECK(weights[4] > 0.9);
 }
 
+namespace {
+
+/// The mean and the variance of the mean of one half's pixels, 16 with `spp` samples each: 20 in one of 20, otherwise
+/// 0.
+struct HalfPicture {
+  double mean = 0, variance = 0;
+
+  HalfPicture(std::mt19937& engine, int spp) {
+    constexpr int kPixels = 16;
+    std::binomial_distribution<int> hits(spp, 0.05);
+    for (int i = 0; i < kPixels; ++i) {
+      const double value = 20.0 * hits(engine) / spp;
+      mean += value / kPixels;
+      variance += value * (20 - value) / (spp - 1) / kPixels;
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Weights by the other half of the picture leave the mean alone; weights by all of it would not") {
+  std::mt19937 engine(3);
+  constexpr int kPictures = 20'000;
+  test::RunningMean crossed, own;
+  for (int picture = 0; picture < kPictures; ++picture) {
+    TrainingSchedule schedule({2, SampleCombination::InverseVariance, 4, 1}, 30, 0);
+    std::vector<std::array<HalfPicture, 2>> halves;
+    for (IterationPlan plan = schedule.next(); plan.spp > 0; plan = schedule.next()) {
+      halves.push_back({HalfPicture(engine, int(plan.spp)), HalfPicture(engine, int(plan.spp))});
+      const auto& [a, b] = halves.back();
+      IterationOutcome outcome{plan.spp, (a.variance + b.variance) / 2, 1};
+      outcome.halfVariance = {a.variance, b.variance};
+      schedule.report(plan, outcome);
+    }
+    double byOther = 0, byAll = 0;
+    for (std::size_t i = 0; i < halves.size(); ++i)
+      for (int half = 0; half < 2; ++half) {
+        byOther += schedule.imageWeights(half)[i] * halves[i][half].mean / 2;
+        byAll += schedule.imageWeights()[i] * halves[i][half].mean / 2;
+      }
+    crossed.add(byOther);
+    own.add(byAll);
+  }
+  const test::ZResult unbiased = test::zTest(crossed, 1, 1e-4), biased = test::zTest(own, 1, 1e-4);
+  INFO(unbiased.message);
+  CHECK(unbiased);
+  CHECK(biased.z < -10);
+}
+
+TEST_CASE("An iteration that looks exact counts as much a sample as those beside it") {
+  TrainingSchedule schedule({1, SampleCombination::InverseVariance, 4, 1}, 15, 0);
+  for (const double variance : {0.0, 1.0, 0.5, 0.0}) {
+    const IterationPlan plan = schedule.next();
+    schedule.report(plan, {plan.spp, variance, 1});
+  }
+  const std::vector<double> weights = schedule.imageWeights();
+  REQUIRE(weights.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) CHECK(weights[i] == Approx(double(1 << i) / 15));
+}
+
 TEST_CASE("Weights sum to one whatever was reported") {
   std::mt19937 engine(2);
   const double odd[] = {0, 1, 1e-320, 1e300, kInf, -1, std::numeric_limits<double>::quiet_NaN()};
@@ -193,12 +256,16 @@ TEST_CASE("Weights sum to one whatever was reported") {
     for (int i = 0; i < count; ++i) {
       IterationPlan plan = schedule.next();
       plan.keepsDensity = engine() % 4 == 0;
-      schedule.report(plan, {std::int64_t(engine() % 3) * 4, odd[engine() % 7], 0});
+      IterationOutcome outcome{std::int64_t(engine() % 3) * 4, odd[engine() % 7], 0};
+      outcome.halfVariance = {odd[engine() % 7], odd[engine() % 7]};
+      schedule.report(plan, outcome);
     }
-    const std::vector<double> weights = schedule.imageWeights();
-    REQUIRE(weights.size() == std::size_t(count));
-    for (const double w : weights) REQUIRE((w >= 0 && w <= 1));
-    REQUIRE(sum(weights) == Approx(1));
+    for (const std::vector<double>& weights :
+         {schedule.imageWeights(), schedule.imageWeights(0), schedule.imageWeights(1)}) {
+      REQUIRE(weights.size() == std::size_t(count));
+      for (const double w : weights) REQUIRE((w >= 0 && w <= 1));
+      REQUIRE(sum(weights) == Approx(1));
+    }
   }
 }
 

@@ -162,30 +162,60 @@ TEST_CASE("Forged counts are refused before anything is allocated") {
   }
 }
 
-TEST_CASE("A leaf that counts 2^32 records is split as its count says") {
-  constexpr std::uint64_t kCount = 12'347, kMany = (std::uint64_t(1) << 32) + 7;
+namespace {
+
+constexpr std::uint64_t kCount = 12'347;
+
+/// A field of one leaf that learned kCount records, which its file says are more: in its leaf, and in all.
+Bytes claimingRecords(double sTreeThreshold, std::uint64_t ofLeaf, std::uint64_t ofField) {
   FieldSettings settings = FieldSettings::mueller2017();
-  settings.sTreeThreshold = double(1 << 28);
+  settings.sTreeThreshold = sTreeThreshold;
+  settings.maxMemoryBytes = 10'000'000;
   Field field = makeField(settings);
   Random random(5);
   REQUIRE(field.accumulate(record(field, coneRadiance, int(kCount), random)));
   Bytes bytes = bytesOf(field);
-  int found = 0;
-  for (std::size_t at = kPayloadAt; at + 8 <= bytes.size(); ++at)
+  std::vector<std::uint64_t> claims{ofLeaf, ofField};  // in the file the field's count comes first
+  for (std::size_t at = kPayloadAt; at + 8 <= bytes.size() && !claims.empty(); ++at)
     if (std::memcmp(bytes.data() + at, &kCount, 8) == 0) {
-      std::memcpy(bytes.data() + at, &kMany, 8);
-      ++found;
+      std::memcpy(bytes.data() + at, &claims.back(), 8);
+      claims.pop_back();
     }
-  REQUIRE(found == 2);  // of the leaf and of the field
-  Result<Field> loaded = loadBytes(forged(bytes));
+  REQUIRE(claims.empty());
+  return forged(bytes);
+}
+
+}  // namespace
+
+TEST_CASE("A leaf that counts 2^32 records is split as its count says") {
+  constexpr std::uint64_t kMany = (std::uint64_t(1) << 32) + 7;
+  Result<Field> loaded = loadBytes(claimingRecords(double(1 << 28), kMany, kMany));
   REQUIRE(loaded.ok());
   Field& full = loaded.value();
+  Random random(6);
   CHECK(full.stats().samples == kMany);
   REQUIRE(full.accumulate(record(full, coneRadiance, 1, random)));
   CHECK(full.stats().samples == kMany + 1);
   REQUIRE(full.endIteration(2));  // the threshold is 2^28: 16 leaves hold 2^28 and a half, 32 hold less
   CHECK(full.stats().spatialLeaves == 32);
   CHECK(full.validate());
+}
+
+TEST_CASE("A leaf that counts 2^62 records is split as far as the cap on memory allows") {
+  constexpr std::uint64_t kMost = std::uint64_t(1) << 62;
+  Result<Field> loaded = loadBytes(claimingRecords(1, kMost, kMost));
+  REQUIRE(loaded.ok());
+  REQUIRE(loaded.value().endIteration(4));
+  CHECK(loaded.value().stats().memoryCapReached);
+  CHECK(loaded.value().stats().spatialLeaves > 1000);
+  CHECK(loaded.value().stats().memoryBytes < 20'000'000);
+  CHECK(loaded.value().validate());
+}
+
+TEST_CASE("Leaves that count more records than their field are refused") {
+  CHECK(failsAs(ErrorCode::Format, loadBytes(claimingRecords(1000, kCount + 1, kCount))));
+  CHECK(failsAs(ErrorCode::Format, loadBytes(claimingRecords(1000, ~std::uint64_t(0), kCount))));
+  CHECK(loadBytes(claimingRecords(1000, kCount, kCount + 1)).ok());
 }
 
 TEST_CASE("Foreign files are told apart") {

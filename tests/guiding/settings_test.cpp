@@ -37,8 +37,8 @@ TEST_CASE("Every setting out of its range is refused by name") {
   const float nan = float(kNaN), inf = float(kInf);
   checkRange("sTreeThreshold", [](FieldSettings& s, double x) { s.sTreeThreshold = x; }, {1.0, 1e300},
              {0.999, 0.0, -1.0, kNaN, -kInf});
-  checkRange("dTreeThreshold", [](FieldSettings& s, float x) { s.dTreeThreshold = x; }, {1e-30f, 0.999f},
-             {0.0f, 1.0f, -0.1f, nan, inf});
+  checkRange("dTreeThreshold", [](FieldSettings& s, float x) { s.dTreeThreshold = x; }, {1e-4f, 0.999f},
+             {0.9e-4f, 0.0f, 1.0f, -0.1f, nan, inf});
   checkRange("maxDTreeDepth", [](FieldSettings& s, int x) { s.maxDTreeDepth = x; }, {1, 20}, {0, -1, 21});
   checkRange("bsdfSamplingFraction", [](FieldSettings& s, float x) { s.bsdfSamplingFraction = x; }, {1e-30f, 1.0f},
              {0.0f, 1.0001f, -0.5f, nan, inf});

@@ -171,6 +171,8 @@ TEST_CASE("A leaf at full depth is not split further") {
   }
   CHECK(tree.maxDepth() == SpatialTree::kMaxDepth);
   CHECK(tree.leafCount() == SpatialTree::kMaxDepth + 1);
+  CHECK(tree.leafDepths()[tree.leafAt({0.3f, 0.3f, 0.3f})] == SpatialTree::kMaxDepth);
+  CHECK(tree.leafDepths()[tree.leafAt({0.9f, 0.3f, 0.3f})] == 1);
   CHECK(tree.leafAt({0.3f, 0.3f, 0.3f}) < tree.leafCount());
 }
 

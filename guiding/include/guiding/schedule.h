@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -62,6 +63,8 @@ struct IterationOutcome {
   /// The same of as many samples without the guide, as the samples with it predict; 0 if unknown. It sees what samples
   /// without the guide are too rare to show.
   double unguidedRelativeVariance = 0;
+  /// `variance` over the pixels of each half of the picture alone; 0 if unknown. See imageWeights(half).
+  std::array<double, 2> halfVariance{};
 };
 
 /// Doubling iterations under a budget in samples per pixel or in seconds.
@@ -82,8 +85,14 @@ class TrainingSchedule {
   /// Tells how the iteration that next() planned came out.
   void report(const IterationPlan& plan, const IterationOutcome& outcome);
 
-  /// Weight of each reported iteration's picture in the final one; sums to 1 (empty if nothing was reported).
+  /// Weight of each reported iteration's picture in the final one; sums to 1 (empty if nothing was reported). Weights
+  /// by inverse variance know the samples that they weigh, which makes them favour iterations that missed what is rare:
+  /// a bias that falls with the number of pixels.
   std::vector<double> imageWeights() const;
+  /// The same for the pixels of one half of the picture (0 or 1), from what the iterations came to in the other half
+  /// (IterationOutcome::halfVariance), of which those pixels are independent: no such bias. The halves are the host's
+  /// choice; where pixels share no samples, the colours of a checkerboard.
+  std::vector<double> imageWeights(int half) const;
 
  private:
   struct Iteration {
@@ -98,7 +107,8 @@ class TrainingSchedule {
   bool guidePays(const Iteration& trial) const;
   double secondsOfLastGuided() const;
   std::vector<double> lastWeights() const;
-  std::vector<double> inverseVarianceWeights() const;
+  template <class VarianceOf>
+  std::vector<double> inverseVarianceWeights(VarianceOf&& varianceOf) const;
 
   ScheduleSettings m_settings;
   std::int64_t m_sppBudget;

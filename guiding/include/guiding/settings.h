@@ -73,7 +73,8 @@ struct FieldSettings {
   /// far as can be foreseen. The quadtrees are not held back. 0: no cap.
   std::size_t maxMemoryBytes = 0;
 
-  /// A quadtree cell is subdivided when it holds more than this share of the leaf's flux. Range: (0, 1).
+  /// A quadtree cell is subdivided when it holds more than this share of the leaf's flux, so that no quadtree has more
+  /// than maxDTreeDepth over this many nodes. Range: [1e-4, 1).
   float dTreeThreshold = 0.01f;
   /// Depth cap of the quadtrees. Range: [1, 20].
   int maxDTreeDepth = 20;
