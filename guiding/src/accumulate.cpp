@@ -172,13 +172,13 @@ void accumulate(Field::State& state, std::span<const SampleBuffer> buffers) {
   const SampleSequence samples(buffers);
   for (std::size_t begin = 0; begin < samples.size(); begin += kBlock) {
     const SampleRange block(samples, begin, std::min(begin + kBlock, samples.size()));
+    count(state, block);  // first: leaves never hold more samples than were counted, even if memory runs out
     if (state.settings.target == LearningTarget::Product)
       splatByLeaf(state, productByLeaf(state, block));
     else
       splatByLeaf(state, radianceByLeaf(state, block));
     if (state.settings.fractionMode != FractionMode::Fixed && !state.density.trees().empty())
       learnFraction(state, block);
-    count(state, block);
   }
   for (const SampleBuffer& buffer : buffers) state.droppedSamples += buffer.lost();
 }
