@@ -124,7 +124,9 @@ StabilityCases materialCases() {
   cases.push_back({.name = "material/index-1",
                    .expectation = "A block of index 1 cannot be seen.",
                    .scene = [] { return roomWith(glass(1)).depths(-1, 5); },  // each boundary is an edge of the path
-                   .truth = AsOtherScenes{{{roomWithoutBlock().depths(-1, 5), 1}}}});
+                   .truth = AsOtherScenes{{{roomWithoutBlock().depths(-1, 5), 1}}},
+                   .knownLoss = "Too few paths to learn from; compensated, the ratio was measured as 0.94 at eight "
+                                "times the samples."});
   cases.push_back({.name = "material/rough-index-1.0001",
                    .expectation = "A rough boundary that does not bend light has no normals to sample: a clear no.",
                    .scene =

@@ -115,7 +115,8 @@ StabilityCases transportCases() {
                    .renders = {.adjust = [](pt::RenderSettings& s) { s.sampler = pt::SamplerKind::Sobol; }}});
   cases.push_back({.name = "transport/2304-lamps",
                    .expectation = "Thousands of small lamps of very different power.",
-                   .scene = [] { return manyLamps(); }});
+                   .scene = [] { return manyLamps(); },
+                   .knownLoss = "1.1 to 1.2 at eight times the samples too; the cause is not known."});
   return cases;
 }
 
