@@ -40,10 +40,41 @@ Imath::V3f jitterOf(const RadianceSample& s) noexcept {
   return u;
 }
 
-/// The leaf that learns from the sample.
-std::uint32_t learningLeaf(const Field::State& state, const RadianceSample& sample) noexcept {
-  if (state.settings.spatialFilter == SpatialFilter::Nearest) return state.tree.leafAt(sample.position);
-  const Imath::V3f size = state.tree.leafSize(state.tree.leafAt(sample.position));
+/// By sample: the leaf that it lies in; kNoLeaf: it cannot be used.
+using OwnLeaves = std::vector<std::uint32_t>;
+
+/// Finds the leaves that samples lie in, and counts the samples.
+OwnLeaves locate(Field::State& state, const SampleRange& samples) {
+  struct Counts {
+    std::uint64_t usable = 0, outside = 0;
+  };
+  constexpr std::size_t kRun = 1 << 14;
+  OwnLeaves leaves(samples.size());
+  std::vector<Counts> ofRun((samples.size() + kRun - 1) / kRun);
+  parallelFor(ofRun.size(), 1, [&](std::size_t run) {
+    Counts counts;
+    samples.forEach(run * kRun, std::min((run + 1) * kRun, samples.size()),
+                    [&](std::size_t i, const RadianceSample& s) {
+                      leaves[i] = isUsable(s) ? state.tree.leafAt(s.position) : kNoLeaf;
+                      if (leaves[i] == kNoLeaf) return;
+                      ++counts.usable;
+                      counts.outside += !state.tree.contains(s.position);
+                    });
+    ofRun[run] = counts;
+  });
+  state.droppedSamples += samples.size();
+  for (const Counts& counts : ofRun) {
+    state.samples += counts.usable;
+    state.droppedSamples -= counts.usable;
+    state.outsideSamples += counts.outside;
+  }
+  return leaves;
+}
+
+/// The leaf that learns from a sample which lies in the leaf `own`.
+std::uint32_t learningLeaf(const Field::State& state, const RadianceSample& sample, std::uint32_t own) noexcept {
+  if (own == kNoLeaf || state.settings.spatialFilter == SpatialFilter::Nearest) return own;
+  const Imath::V3f size = state.tree.leafSize(own);
   const Imath::V3f u = jitterOf(sample);
   Imath::V3f moved = sample.position + size * (u - Imath::V3f(0.5f));
   for (int axis = 0; axis < 3; ++axis)
@@ -62,23 +93,22 @@ struct ProductSplat : Splat {
 };
 
 /// The samples by the leaves that learn from them; what is dark is only counted, unless it tells of the BSDF.
-LeafPartition<Splat> radianceByLeaf(const Field::State& state, const SampleRange& samples) {
+LeafPartition<Splat> radianceByLeaf(const Field::State& state, const SampleRange& samples, const OwnLeaves& own) {
   const DirectionMap map = state.settings.directionMap;
   return partitionByLeaf<Splat>(
       samples, state.leaves.size(),
-      [&](const RadianceSample& s) {
-        if (!isUsable(s)) return kNoLeaf;
-        return learningLeaf(state, s) | (s.radiance > 0 ? 0 : kIdle);
+      [&](std::size_t i, const RadianceSample& s) {
+        return learningLeaf(state, s, own[i]) | (s.radiance > 0 ? 0 : kIdle);  // kNoLeaf stays kNoLeaf
       },
       [&](const RadianceSample& s) {
         return Splat{toSquarePoint(sphereToSquare(map, s.direction)), double(s.radiance) / double(s.pdf)};
       });
 }
-LeafPartition<ProductSplat> productByLeaf(const Field::State& state, const SampleRange& samples) {
+LeafPartition<ProductSplat> productByLeaf(const Field::State& state, const SampleRange& samples, const OwnLeaves& own) {
   const DirectionMap map = state.settings.directionMap;
   return partitionByLeaf<ProductSplat>(
       samples, state.leaves.size(),
-      [&](const RadianceSample& s) { return isUsable(s) ? learningLeaf(state, s) : kNoLeaf; },
+      [&](std::size_t i, const RadianceSample& s) { return learningLeaf(state, s, own[i]); },
       [&](const RadianceSample& s) {
         return ProductSplat{{toSquarePoint(sphereToSquare(map, s.direction)), double(s.product) / double(s.pdf)},
                             s.bsdfPdf / s.pdf};
@@ -114,12 +144,12 @@ float guidePdfOf(const Field::State& state, const RadianceSample& s) noexcept {
 }
 
 /// Fractions are learned in the leaf whose guide was mixed in, or could have been.
-void learnFraction(Field::State& state, const SampleRange& samples) {
+void learnFraction(Field::State& state, const SampleRange& samples, const OwnLeaves& own) {
   const auto records = partitionByLeaf<FractionRecord>(
       samples, state.leaves.size(),
-      [&](const RadianceSample& s) {
-        if (!(s.product > 0) || !isUsable(s)) return kNoLeaf;  // darkness says nothing of the fraction
-        const std::uint32_t leaf = state.tree.leafAt(s.position);
+      [&](std::size_t i, const RadianceSample& s) {
+        const std::uint32_t leaf = own[i];
+        if (leaf == kNoLeaf || !(s.product > 0)) return kNoLeaf;  // darkness says nothing of the fraction
         const std::uint32_t tree = state.densityOfLeaf[leaf];
         const bool rests = tree != GuidingDensity::kNoGuide && (tree & GuidingDensity::kResting);
         return s.pdf != s.bsdfPdf || rests ? leaf : kNoLeaf;
@@ -136,29 +166,6 @@ void learnFraction(Field::State& state, const SampleRange& samples) {
   });
 }
 
-void count(Field::State& state, const SampleRange& samples) {
-  struct Counts {
-    std::uint64_t usable = 0, outside = 0;
-  };
-  constexpr std::size_t kRun = 1 << 14;
-  std::vector<Counts> ofRun((samples.size() + kRun - 1) / kRun);
-  parallelFor(ofRun.size(), 1, [&](std::size_t run) {
-    Counts counts;
-    samples.forEach(run * kRun, std::min((run + 1) * kRun, samples.size()), [&](std::size_t, const RadianceSample& s) {
-      if (!isUsable(s)) return;
-      ++counts.usable;
-      counts.outside += !state.tree.contains(s.position);
-    });
-    ofRun[run] = counts;
-  });
-  state.droppedSamples += samples.size();
-  for (const Counts& counts : ofRun) {
-    state.samples += counts.usable;
-    state.droppedSamples -= counts.usable;
-    state.outsideSamples += counts.outside;
-  }
-}
-
 }  // namespace
 
 void emptyBuildingTrees(Field::State& state) {
@@ -172,13 +179,14 @@ void accumulate(Field::State& state, std::span<const SampleBuffer> buffers) {
   const SampleSequence samples(buffers);
   for (std::size_t begin = 0; begin < samples.size(); begin += kBlock) {
     const SampleRange block(samples, begin, std::min(begin + kBlock, samples.size()));
-    count(state, block);  // first: leaves never hold more samples than were counted, even if memory runs out
+    // Counts first: leaves never hold more samples than were counted, even if memory runs out.
+    const OwnLeaves own = locate(state, block);
     if (state.settings.target == LearningTarget::Product)
-      splatByLeaf(state, productByLeaf(state, block));
+      splatByLeaf(state, productByLeaf(state, block, own));
     else
-      splatByLeaf(state, radianceByLeaf(state, block));
+      splatByLeaf(state, radianceByLeaf(state, block, own));
     if (state.settings.fractionMode != FractionMode::Fixed && !state.density.trees().empty())
-      learnFraction(state, block);
+      learnFraction(state, block, own);
   }
   for (const SampleBuffer& buffer : buffers) state.droppedSamples += buffer.lost();
 }

@@ -24,7 +24,7 @@ inline constexpr std::uint32_t kNoLeaf = ~0u;
 /// Flag of a leaf's index for a sample that is only counted.
 inline constexpr std::uint32_t kIdle = 1u << 31;
 
-/// Sorts what `itemOf(sample)` makes of each sample by `leafOf(sample)`, leaving out those of kNoLeaf and counting
+/// Sorts what `itemOf(sample)` makes of each sample by `leafOf(index, sample)`, leaving out those of kNoLeaf and counting
 /// those with kIdle.
 ///
 /// A counting sort over runs of consecutive samples. Runs are cut by the number of samples alone and the sort is
@@ -45,7 +45,7 @@ LeafPartition<Item> partitionByLeaf(const SampleRange& samples, std::size_t leaf
   std::vector<std::uint32_t> leaf(samples.size());
   parallelFor(runs, 1, [&](std::size_t run) {
     forEachOfRun(run, [&](std::size_t i, const RadianceSample& sample) {
-      leaf[i] = leafOf(sample);
+      leaf[i] = leafOf(i, sample);
       if (leaf[i] < kIdle)
         ++slot[run][leaf[i]];
       else if (leaf[i] != kNoLeaf)
