@@ -24,8 +24,8 @@ inline constexpr std::uint32_t kNoLeaf = ~0u;
 /// Flag of a leaf's index for a sample that is only counted.
 inline constexpr std::uint32_t kIdle = 1u << 31;
 
-/// Sorts what `itemOf(sample)` makes of each sample by `leafOf(index, sample)`, leaving out those of kNoLeaf and counting
-/// those with kIdle.
+/// Sorts what `itemOf(sample)` makes of each sample by `leafOf(index, sample)`, leaving out those of kNoLeaf and
+/// counting those with kIdle.
 ///
 /// A counting sort over runs of consecutive samples. Runs are cut by the number of samples alone and the sort is
 /// stable, so the outcome does not depend on the number of threads.
