@@ -11,6 +11,9 @@ namespace {
 constexpr std::int64_t kAutomaticMinSpp = 256;
 /// Iterations that are learned before guiding may be put on trial: fewer samples tell too little of either.
 constexpr int kIterationsBeforeTrial = 3;
+/// What the trial demands of guiding's variance times cost beside that without a guide: few samples say it, and where
+/// there is little to gain, there is as much to lose.
+constexpr double kMostInefficiency = 0.9;
 }  // namespace
 
 Status ScheduleSettings::validate() const {
@@ -103,7 +106,7 @@ bool TrainingSchedule::guidePays(const Iteration& trial) const {
   const double unguidedVariance = std::max(without.relativeVariance, with.unguidedRelativeVariance);
   const auto cost = [this](const IterationOutcome& o) { return m_sppBudget > 0 ? double(o.spp) : o.tracingSeconds; };
   const double guided = with.relativeVariance * cost(with), unguided = unguidedVariance * cost(without);
-  return !(guided > 0 && unguided > 0) || guided < unguided;
+  return !(guided > 0 && unguided > 0) || guided < kMostInefficiency * unguided;
 }
 
 bool TrainingSchedule::trainingShouldEnd() const {

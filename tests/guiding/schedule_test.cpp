@@ -295,10 +295,12 @@ TEST_CASE("Guiding that does not pay is left after its trial, and guiding that p
     double guidedSeconds;                ///< of a sample; unguided 0.01
     bool pays, paysBySamples;
   };
-  for (const Case& c : {Case{1, 2, 2, 0.01, true, true}, Case{2, 1, 1, 0.01, false, false},
-                        Case{1, 1.5, 1.5, 0.02, false, true}, Case{2, 1.5, 1.5, 0.005, true, false},
-                        Case{1, 0.5, 10, 0.01, true, true},  // rare light that only guided samples have seen
-                        Case{0, 1, 1, 0.01, true, true}})    // unknown
+  for (const Case& c :
+       {Case{1, 2, 2, 0.01, true, true}, Case{2, 1, 1, 0.01, false, false}, Case{1, 1.5, 1.5, 0.02, false, true},
+        Case{2, 1.5, 1.5, 0.005, true, false}, Case{1, 1.2, 1.2, 0.01, true, true},  // by a tenth and more
+        Case{1, 1.05, 1.05, 0.01, false, false},                                     // by less
+        Case{1, 0.5, 10, 0.01, true, true},  // rare light that only guided samples have seen
+        Case{0, 1, 1, 0.01, true, true}})    // unknown
     for (const bool bySamples : {false, true}) {
       ScheduleSettings s{1, SampleCombination::InverseVariance, 4, 1};
       s.trialShare = 0.1f;

@@ -27,9 +27,9 @@ struct ScheduleSettings {
   /// above the doubling alone decides: an iteration that would leave less than twice itself is the last.
   float trainingShare = 1;
   /// Guiding must pay: about when this share of the budget is spent, an iteration's samples are repeated without the
-  /// guide, and if they are the more efficient ones, the rest of the budget goes without it too. Efficiency is told by
-  /// IterationOutcome::relativeVariance and the cost of tracing: seconds, or samples where the budget is in samples.
-  /// Range: [0, 1); 0: guiding is not put on trial.
+  /// guide, and unless those with it are the more efficient ones by a tenth, the rest of the budget goes without it
+  /// too. Efficiency is told by IterationOutcome::relativeVariance and the cost of tracing: seconds, or samples where
+  /// the budget is in samples. Range: [0, 1); 0: guiding is not put on trial.
   float trialShare = 0;
 
   static ScheduleSettings mueller2017() { return {}; }
