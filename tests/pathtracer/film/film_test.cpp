@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "catch.h"
+#include "integrators/iteration_images.h"
 
 using pt::Film;
 using pt::Spectrum;
@@ -27,6 +28,27 @@ TEST_CASE("A film estimates the variance of each pixel's mean without bias") {
   CHECK(variance[0] == Approx(14.0 / 12).epsilon(1e-6));
   CHECK(variance[1] == Approx(0).margin(1e-16));
   CHECK(film.meanVariance() == Approx(7.0 / 12).epsilon(1e-6));
+}
+
+TEST_CASE("The variance of half a picture tells nothing of the other half, and each half has weights of its own") {
+  Film film(3, 2);
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 3; ++x)
+      for (const float sign : {-1.0f, 1.0f})
+        film.add(x, y, Spectrum(10 + sign * (Film::halfOf(x, y) == 0 ? 1.0f : 2.0f)));
+  CHECK(film.halfVariance()[0] == Approx(1).epsilon(1e-6));
+  CHECK(film.halfVariance()[1] == Approx(4).epsilon(1e-6));
+  CHECK(film.meanVariance() == Approx(2.5).epsilon(1e-6));
+
+  Film second(3, 2);
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 3; ++x) second.add(x, y, Spectrum(20));
+  pt::IterationImages images(false);
+  images.add(film);
+  images.add(second);
+  const pt::Image sum = images.combined(pt::ImageWeights{{{0.5, 1.0}, {0.5, 0.0}}});
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 3; ++x) CHECK(sum.at(x, y) == Spectrum(Film::halfOf(x, y) == 0 ? 25.0f : 5.0f));
 }
 
 TEST_CASE("A single sample has no known variance") {
