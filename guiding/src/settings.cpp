@@ -33,6 +33,8 @@ FieldSettings FieldSettings::recommended() {
 
 FieldSettings FieldSettings::boundProduct() {
   FieldSettings s = production2019();
+  s.sTreeThreshold = 500;
+  s.dTreeThreshold = 0.02f;
   s.directionMap = DirectionMap::Octahedral;
   s.fractionMode = FractionMode::Fit;
   s.product = true;
