@@ -154,6 +154,9 @@ struct Understood {
 
 constexpr Understood kUnderstood[] = {
     {"", "libembree", "Embree computes with masked lanes and infinite slabs and asks for masked exceptions"},
+    {"invalid", "isUsable(guiding::RadianceSample", "records that are no number are told by comparing them"},
+    {"invalid", "guiding::FieldSettings::validate", "settings that are no number are told by comparing them"},
+    {"invalid", "pt::checkSettings", "settings that are no number are told by comparing them"},
 };
 
 }  // namespace
