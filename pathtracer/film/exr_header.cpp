@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
+#include <iterator>
+#include <string_view>
 
 namespace pt {
 
@@ -26,6 +28,11 @@ class HeaderReader {
     for (int c = m_stream.get(); c > 0 && text.size() < kLongest; c = m_stream.get()) text += char(c);
     return text;
   }
+  std::string bytes(std::uint32_t count) {
+    std::string text(count, '\0');
+    m_stream.read(text.data(), std::streamsize(count));
+    return text;
+  }
   void skip(std::uint32_t bytes) { m_stream.seekg(bytes, std::ios::cur); }
   std::uintmax_t position() { return std::uintmax_t(m_stream.tellg()); }
   explicit operator bool() const { return bool(m_stream); }
@@ -33,6 +40,68 @@ class HeaderReader {
  private:
   std::ifstream m_stream;
 };
+
+/// Values of these types take so many bytes, whatever the header says [OpenEXR file layout, predefined attribute
+/// types].
+constexpr struct {
+  std::string_view type;
+  std::uint32_t bytes;
+} kFixedSizes[] = {{"box2f", 16},
+                   {"box2i", 16},
+                   {"chromaticities", 32},
+                   {"compression", 1},
+                   {"deepImageState", 1},
+                   {"double", 8},
+                   {"envmap", 1},
+                   {"float", 4},
+                   {"int", 4},
+                   {"keycode", 28},
+                   {"lineOrder", 1},
+                   {"m33d", 72},
+                   {"m33f", 36},
+                   {"m44d", 128},
+                   {"m44f", 64},
+                   {"rational", 8},
+                   {"tiledesc", 9},
+                   {"timecode", 8},
+                   {"v2d", 16},
+                   {"v2f", 8},
+                   {"v2i", 8},
+                   {"v3d", 24},
+                   {"v3f", 12},
+                   {"v3i", 12}};
+
+/// Channels, each a name and 16 bytes, and then an empty name.
+bool isChannelList(std::string_view value) {
+  constexpr std::size_t kAfterName = 16;
+  while (!value.empty() && value[0] != 0) {
+    const std::size_t end = value.find('\0');
+    if (end == value.npos || value.size() - end - 1 < kAfterName) return false;
+    value.remove_prefix(end + 1 + kAfterName);
+  }
+  return value.size() == 1;
+}
+
+/// Width, height and four bytes a pixel. Takes the first eight bytes.
+bool isPreview(HeaderReader& reader, std::uint32_t bytes) {
+  const std::uint64_t width = reader.number(), height = reader.number();
+  return bytes >= 8 && width * height == (bytes - 8) / 4 && bytes % 4 == 0 && std::max(width, height) <= bytes;
+}
+
+/// Goes on behind a value that is as long as its type says; false for any other.
+bool passValue(HeaderReader& reader, std::string_view type, std::uint32_t bytes) {
+  if (type == "chlist") return isChannelList(reader.bytes(bytes));
+  if (type == "preview") {
+    if (!isPreview(reader, bytes)) return false;
+    reader.skip(bytes - 8);
+    return true;
+  }
+  const auto fixed = std::find_if(std::begin(kFixedSizes), std::end(kFixedSizes),
+                                  [type](const auto& known) { return known.type == type; });
+  if (fixed != std::end(kFixedSizes) && bytes != fixed->bytes) return false;
+  reader.skip(bytes);
+  return true;
+}
 
 }  // namespace
 
@@ -53,11 +122,12 @@ std::optional<std::string> faultOfExrHeader(const std::filesystem::path& file) {
       continue;
     }
     atStart = false;
-    reader.name();  // of its type
+    const std::string type = reader.name();
     const std::uint32_t bytes = reader.number();
     if (!reader || bytes > size - std::min(size, reader.position()))
       return fmt::format("its attribute '{}' is cut short: {} bytes are announced", name, bytes);
-    reader.skip(bytes);
+    if (!passValue(reader, type, bytes))
+      return fmt::format("its attribute '{}' of type '{}' cannot take {} bytes", name, type, bytes);
   }
   return "its header is cut short";
 }

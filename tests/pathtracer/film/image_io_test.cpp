@@ -162,6 +162,19 @@ TEST_CASE("A header of attributes that are larger than the file is refused, wher
   forged.replace(at, 4, "\xf0\xff\xff\x6f");
   std::ofstream(cut, std::ios::binary) << forged;
   CHECK_THROWS_WITH(readImage(cut), Contains("attribute 'channels' is cut short: 1879048176 bytes are announced"));
+
+  // Sizes that fit into the file, but not the values.
+  const auto withSize = [&](const char* type, char size) {
+    std::string wrong = bytes;
+    wrong[wrong.find(type) + std::string_view(type).size() + 1] = size;
+    std::ofstream(cut, std::ios::binary) << wrong;
+  };
+  for (const auto& [type, name] :
+       {std::pair("chlist", "channels"), std::pair("box2i", "dataWindow"), std::pair("v2f", "screenWindowCenter")}) {
+    withSize(type, 3);
+    CHECK_THROWS_WITH(readImage(cut),
+                      Contains(std::string("attribute '") + name + "'") && Contains("cannot take 3 bytes"));
+  }
   for (std::size_t size = 0; size < bytes.size(); size += 3) {
     std::ofstream(cut, std::ios::binary | std::ios::trunc) << bytes.substr(0, size);
     CHECK_THROWS_AS(readImage(cut), InputError);
