@@ -47,7 +47,7 @@ void printScene(const InfoOptions& options) {
   fmt::print("{:<12} max depth {}, roulette from {}\n", "paths", description.integrator.maxDepth,
              description.integrator.rrDepth);
   fmt::print("{:<12} {} triangles, {} other primitives, {} instances\n", "geometry", counts.triangles,
-             counts.primitives, counts.instances);
+             counts.primitives - counts.triangles, counts.instances);
   fmt::print("{:<12} ({}, {}, {}) to ({}, {}, {})\n", "bounds", lower.x, lower.y, lower.z, upper.x, upper.y, upper.z);
   fmt::print("{:<12} {} lights, {} materials\n", "content", counts.lights, counts.materials);
   fmt::print("{:<12} {:.1f} MB\n", "memory", double(counts.memoryBytes) / 1e6);

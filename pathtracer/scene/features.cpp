@@ -68,7 +68,7 @@ void listLights(const SceneData& data, Lists& lists) {
   lists.add("point, spot and directional lights", data.lights.size() - area - environment,
             "point, spot and directional lights", "none");
   if (data.environmentTexels > 0) {
-    lists.add("texels of an environment map with its sampling tables", data.environmentTexels, "", "");
+    lists.add("texels of an environment map", data.environmentTexels, "", "");
   } else {
     lists.add("constant environment", environment, "environment light and its sampling", "no environment");
     if (environment) lists.leaveOut("environment sampling table", "the environment is constant");
