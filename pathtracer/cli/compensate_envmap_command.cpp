@@ -85,6 +85,9 @@ void compensateMap(CompensateOptions options) {
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
 
   const guiding::EnvironmentLayout layout(mappingOf(options), map->width, map->height);
+  if (layout.mapping() == guiding::EnvironmentMapping::Octahedral && map->width != map->height)
+    throw InputError(fmt::format("{}: an octahedral map is square, this one has {}x{} texels; leave --mapping out",
+                                 options.map.string(), map->width, map->height));
   std::vector<float> luminances, sharpened(map->pixels.size());
   for (const Spectrum& c : map->pixels) luminances.push_back(luminance(c));
   const auto sharpening = guiding::sharpenEnvironment({layout, luminances}, settingsOf(options), sharpened);

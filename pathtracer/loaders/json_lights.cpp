@@ -56,6 +56,9 @@ Kind readMap(Context& context, ObjectReader& reader) {
   EnvironmentMap map;
   map.image = readEnvironment(*path, name.source(), context.scene.notes);
   const bool isOctahedral = reader.choice("mapping", {"latLong", "octahedral"}, 0) == 1;
+  if (isOctahedral && map.image->width != map.image->height)
+    name.fail(fmt::format("an octahedral map is square, this one has {}x{} texels; leave \"mapping\" out",
+                          map.image->width, map.image->height));
   map.mapping = isOctahedral ? guiding::EnvironmentMapping::Octahedral : guiding::EnvironmentMapping::LatLong;
   map.scale = reader.positive("scale", 1);
   map.toWorld = readTransform(reader.find("transform"));

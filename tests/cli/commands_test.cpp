@@ -63,6 +63,8 @@ TEST_CASE("compensate-envmap writes a map, a report and a picture of both densit
   CHECK_THAT(even.err, Contains("even.json: the map is black or nearly constant"));
   CHECK_FALSE(space.has("even.exr"));
   CHECK_THAT(space.run({"compensate-envmap", "no.hdr", "-o", "out.exr"}).err, Contains("no.hdr"));
+  CHECK_THAT(space.run({"compensate-envmap", "sky.json", "-o", "o.exr", "--mapping", "octahedral"}).err,
+             Contains("sky.json: an octahedral map is square, this one has 64x32 texels"));
   CHECK(space.run({"compensate-envmap", "sky.json", "-o", "out.png"}).status == 2);
   CHECK(space.run({"compensate-envmap", "out.exr", "-o", "out.exr"}).status == 2);
   CHECK(space.run({"compensate-envmap", "sky.json", "-o", "out.exr", "--share", "1.5"}).status == 2);
