@@ -1,6 +1,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "directional_filter.h"
 #include "leaf_partition.h"
@@ -41,7 +42,7 @@ Imath::V3f jitterOf(const RadianceSample& s) noexcept {
 }
 
 /// By sample: the leaf that it lies in; kNoLeaf: it cannot be used.
-using OwnLeaves = std::vector<std::uint32_t>;
+using OwnLeaves = std::unique_ptr<std::uint32_t[]>;
 
 /// Finds the leaves that samples lie in, and counts the samples.
 OwnLeaves locate(Field::State& state, const SampleRange& samples) {
@@ -49,7 +50,7 @@ OwnLeaves locate(Field::State& state, const SampleRange& samples) {
     std::uint64_t usable = 0, outside = 0;
   };
   constexpr std::size_t kRun = 1 << 14;
-  OwnLeaves leaves(samples.size());
+  OwnLeaves leaves = std::make_unique_for_overwrite<std::uint32_t[]>(samples.size());
   std::vector<Counts> ofRun((samples.size() + kRun - 1) / kRun);
   parallelFor(ofRun.size(), 1, [&](std::size_t run) {
     Counts counts;

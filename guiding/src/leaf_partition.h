@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "parallel.h"
@@ -11,12 +12,12 @@ namespace guiding {
 /// Items sorted by spatial leaf, those of one leaf in the order of their samples.
 template <class Item>
 struct LeafPartition {
-  std::vector<Item> items;
+  std::unique_ptr<Item[]> items;
   std::vector<std::size_t> begin;        ///< of each leaf's items; then their number
   std::vector<std::uint64_t> idleCount;  ///< by leaf: samples that make no item
 
   std::span<const Item> ofLeaf(std::size_t leaf) const noexcept {
-    return {items.data() + begin[leaf], begin[leaf + 1] - begin[leaf]};
+    return {items.get() + begin[leaf], begin[leaf + 1] - begin[leaf]};
   }
 };
 
@@ -42,7 +43,7 @@ LeafPartition<Item> partitionByLeaf(const SampleRange& samples, std::size_t leaf
   // Per run and leaf: first how many items, then where the next one goes.
   std::vector<std::vector<std::size_t>> slot(runs, std::vector<std::size_t>(leafCount, 0));
   std::vector<std::vector<std::uint32_t>> idle(runs, std::vector<std::uint32_t>(leafCount, 0));
-  std::vector<std::uint32_t> leaf(samples.size());
+  const auto leaf = std::make_unique_for_overwrite<std::uint32_t[]>(samples.size());
   parallelFor(runs, 1, [&](std::size_t run) {
     forEachOfRun(run, [&](std::size_t i, const RadianceSample& sample) {
       leaf[i] = leafOf(i, sample);
@@ -69,7 +70,7 @@ LeafPartition<Item> partitionByLeaf(const SampleRange& samples, std::size_t leaf
   for (const std::vector<std::uint32_t>& ofRun : idle)
     for (std::size_t l = 0; l < leafCount; ++l) partition.idleCount[l] += ofRun[l];
 
-  partition.items.resize(position);
+  partition.items = std::make_unique_for_overwrite<Item[]>(position);
   parallelFor(runs, 1, [&](std::size_t run) {
     forEachOfRun(run, [&](std::size_t i, const RadianceSample& sample) {
       if (leaf[i] < kIdle) partition.items[slot[run][leaf[i]]++] = itemOf(sample);

@@ -103,7 +103,8 @@ bool TrainingSchedule::guidePays(const Iteration& trial) const {
   const IterationOutcome& with = (&trial - 1)->outcome;
   const IterationOutcome& without = trial.outcome;
   // Either estimate may miss what is rare, neither invents it.
-  const double unguidedVariance = std::max(without.relativeVariance, with.unguidedRelativeVariance);
+  const double predicted = with.unguidedRelativeVariance * without.stratification;
+  const double unguidedVariance = std::max(without.relativeVariance, predicted);
   const auto cost = [this](const IterationOutcome& o) { return m_sppBudget > 0 ? double(o.spp) : o.tracingSeconds; };
   const double guided = with.relativeVariance * cost(with), unguided = unguidedVariance * cost(without);
   return !(guided > 0 && unguided > 0) || guided < kMostInefficiency * unguided;

@@ -208,7 +208,9 @@ void addOptions(CLI::App& command, SamplingOptions& options) {
       "Russian roulette and splitting: classic, adjoint (by expected contribution) or ears (by expected "
       "variance and cost), the latter two with an optional limit to splitting as in ears:4; they learn "
       "while rendering, and end where they do not pay (default: adjoint; classic with --integrator direct)");
-  command.add_option("--sampler", options.sampler, "Random numbers: independent or sobol (default: the scene's)")
+  command
+      .add_option("--sampler", options.sampler,
+                  "Random numbers: independent or sobol (default: sobol, unless a JSON scene says otherwise)")
       ->check(memberOf<SamplerKind>());
   command.add_option("--threads", options.threads, "Number of threads; 0: all that the machine has")
       ->check(CLI::Range(0, 1024))

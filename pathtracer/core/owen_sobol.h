@@ -1,12 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "core/types.h"
 
-/// The first two dimensions of Sobol's sequence with hashed Owen scrambling. Pairs of dimensions are padded: each pair
-/// sees the same (0,2)-sequence, shuffled and scrambled by a seed of its own [Burley 2020, "Practical hash-based Owen
-/// scrambling"].
+/// The first three dimensions of Sobol's sequence with hashed Owen scrambling. They are padded: each group of one to
+/// three dimensions sees the same sequence, shuffled and scrambled by seeds of its own [Burley 2020, "Practical
+/// hash-based Owen scrambling"].
 namespace pt {
 
 inline std::uint32_t reverseBits(std::uint32_t x) noexcept {
@@ -38,27 +39,62 @@ inline std::uint32_t sobolSecondReversed(std::uint32_t index) noexcept {
   return index;
 }
 
+/// Generator of Sobol's third dimension, bits reversed, for the four bytes of an index. The direction numbers follow
+/// from the polynomial x^2 + x + 1 and the initial 1, 3 [Joe & Kuo 2008].
+inline constexpr auto kSobolThird = [] {
+  std::array<std::uint32_t, 32> column{};  // as integers m_j < 2^j, the j-th digit of the fraction being bit 0
+  column[0] = 1;
+  column[1] = 3;
+  for (int j = 2; j < 32; ++j) column[j] = 2 * column[j - 1] ^ 4 * column[j - 2] ^ column[j - 2];
+  std::array<std::array<std::uint32_t, 256>, 4> table{};
+  for (int byte = 0; byte < 4; ++byte)
+    for (int value = 0; value < 256; ++value)
+      for (int bit = 0; bit < 8; ++bit) {
+        if (!(value >> bit & 1)) continue;
+        const int j = 8 * byte + bit;
+        for (int digit = 0; digit <= j; ++digit) table[byte][value] ^= (column[j] >> digit & 1) << (j - digit);
+      }
+  return table;
+}();
+
+/// Sobol's third dimension of `index`, bits reversed.
+inline std::uint32_t sobolThirdReversed(std::uint32_t index) noexcept {
+  return kSobolThird[0][index & 255] ^ kSobolThird[1][index >> 8 & 255] ^ kSobolThird[2][index >> 16 & 255] ^
+         kSobolThird[3][index >> 24];
+}
+
 /// In [0,1), 24 bits.
 inline float toUnitFloat(std::uint32_t x) noexcept {
   return float(x >> 8) * 0x1p-24f;
 }
 
-/// Where `index` stands in a shuffled sequence; aligned blocks of 2^k indices map to aligned blocks.
-inline std::uint32_t shuffleIndex(std::uint32_t index, std::uint32_t seed) noexcept {
-  return reverseBits(owenScrambleReversed(reverseBits(index), seed));
+/// Where an index, given with its bits reversed, stands in a shuffled sequence; aligned blocks of 2^k indices map to
+/// aligned blocks.
+inline std::uint32_t shuffleIndex(std::uint32_t reversedIndex, std::uint32_t seed) noexcept {
+  return reverseBits(owenScrambleReversed(reversedIndex, seed));
 }
 
-/// Point `index` of a scrambled one-dimensional sequence.
-inline float owenSobol1D(std::uint32_t index, std::uint32_t shuffleSeed, std::uint32_t seed) noexcept {
-  return toUnitFloat(reverseBits(owenScrambleReversed(shuffleIndex(index, shuffleSeed), seed)));
+/// Point of a scrambled one-dimensional sequence; the bits of its index are given reversed.
+inline float owenSobol1D(std::uint32_t reversedIndex, std::uint32_t shuffleSeed, std::uint32_t seed) noexcept {
+  return toUnitFloat(reverseBits(owenScrambleReversed(shuffleIndex(reversedIndex, shuffleSeed), seed)));
 }
 
-/// Point `index` of a scrambled two-dimensional sequence.
-inline Vec2 owenSobol2D(std::uint32_t index, std::uint32_t shuffleSeed, std::uint32_t seedX,
+/// Point of a scrambled two-dimensional sequence; the bits of its index are given reversed.
+inline Vec2 owenSobol2D(std::uint32_t reversedIndex, std::uint32_t shuffleSeed, std::uint32_t seedX,
                         std::uint32_t seedY) noexcept {
-  const std::uint32_t i = shuffleIndex(index, shuffleSeed);
+  const std::uint32_t i = shuffleIndex(reversedIndex, shuffleSeed);
   return {toUnitFloat(reverseBits(owenScrambleReversed(i, seedX))),
           toUnitFloat(reverseBits(owenScrambleReversed(sobolSecondReversed(i), seedY)))};
+}
+
+/// Point of a scrambled three-dimensional sequence; the bits of its index are given reversed. Its first two dimensions
+/// are those of owenSobol2D.
+inline Vec3 owenSobol3D(std::uint32_t reversedIndex, std::uint32_t shuffleSeed, std::uint32_t seedX,
+                        std::uint32_t seedY, std::uint32_t seedZ) noexcept {
+  const std::uint32_t i = shuffleIndex(reversedIndex, shuffleSeed);
+  return {toUnitFloat(reverseBits(owenScrambleReversed(i, seedX))),
+          toUnitFloat(reverseBits(owenScrambleReversed(sobolSecondReversed(i), seedY))),
+          toUnitFloat(reverseBits(owenScrambleReversed(sobolThirdReversed(i), seedZ)))};
 }
 
 }  // namespace pt

@@ -46,8 +46,29 @@ void Film::add(int x, int y, const Spectrum& radiance) noexcept {
   pixel.luminance2 += value * value;
 }
 
+void Film::compareReplicates() {
+  m_replicates.assign(m_pixels.size(), Replicates{});
+}
+
+void Film::endReplicate() {
+  if (m_pixels.empty()) return;
+  const double sign = m_isOdd ? 1 : -1;
+  for (std::size_t i = 0; i < m_replicates.size(); ++i) {
+    const double sum = sumOf(m_pixels[i]);
+    m_replicates[i].difference += sign * (sum - m_replicates[i].ended);
+    m_replicates[i].ended = sum;
+  }
+  const std::uint32_t samples = m_pixels.front().count;
+  if (m_isOdd) m_endedOdd += samples - m_ended;
+  m_ended = samples;
+  m_isOdd = !m_isOdd;
+}
+
 void Film::clear() {
   std::fill(m_pixels.begin(), m_pixels.end(), Pixel{});
+  std::fill(m_replicates.begin(), m_replicates.end(), Replicates{});
+  m_ended = m_endedOdd = 0;
+  m_isOdd = true;
 }
 
 Film Film::since(const Film& earlier) const {
@@ -75,16 +96,37 @@ Image Film::mean() const {
   return image;
 }
 
+double Film::sumOf(const Pixel& p) noexcept {
+  return luminance(p.sum[0], p.sum[1], p.sum[2]);
+}
+
 double Film::variance(const Pixel& p, double sumOfSquares) noexcept {
   if (p.count < 2) return 0;
   const double n = p.count;
-  const double mean = luminance(p.sum[0], p.sum[1], p.sum[2]) / n;
+  const double mean = sumOf(p) / n;
   return std::max(0.0, sumOfSquares / n - mean * mean) / (n - 1);
+}
+
+double Film::variance(std::size_t pixel) const noexcept {
+  return m_replicates.empty() ? variance(m_pixels[pixel], m_pixels[pixel].luminance2) : varianceOfReplicates(pixel);
+}
+
+/// With runs whose means vary as 1 / length the difference of the means a and b of two halves of n = na + nb samples
+/// tells the variance of the whole: (a - b)^2 na nb / n^2.
+double Film::varianceOfReplicates(std::size_t pixel) const noexcept {
+  const Pixel& p = m_pixels[pixel];
+  const double n = p.count, sum = sumOf(p), underWay = n - m_ended;
+  const double na = m_endedOdd + (m_isOdd ? underWay : 0.0), nb = n - na;
+  if (!(na > 0 && nb > 0)) return 0;
+  const Replicates& runs = m_replicates[pixel];
+  const double difference = runs.difference + (m_isOdd ? sum - runs.ended : runs.ended - sum);
+  const double apart = (sum + difference) / (2 * na) - (sum - difference) / (2 * nb);
+  return apart * apart * (na / n) * (nb / n);
 }
 
 double Film::meanVariance() const {
   double sum = 0;
-  for (const Pixel& p : m_pixels) sum += variance(p, p.luminance2);
+  for (std::size_t i = 0; i < m_pixels.size(); ++i) sum += variance(i);
   return m_pixels.empty() ? 0 : sum / double(m_pixels.size());
 }
 
@@ -92,8 +134,7 @@ std::array<double, 2> Film::halfVariance() const {
   std::array<double, 2> sum{}, count{};
   for (int y = 0; y < m_height; ++y)
     for (int x = 0; x < m_width; ++x) {
-      const Pixel& p = m_pixels[std::size_t(y) * m_width + x];
-      sum[halfOf(x, y)] += variance(p, p.luminance2);
+      sum[halfOf(x, y)] += variance(std::size_t(y) * m_width + x);
       ++count[halfOf(x, y)];
     }
   for (int half = 0; half < 2; ++half) sum[half] /= std::max(count[half], 1.0);
@@ -109,13 +150,16 @@ Film::RelativeVariance Film::relativeVariance(const Image& levelSum, double spp)
   const double floor = 0.01 * meanOf(squaredLevel);
   if (!(floor > 0)) return {};
 
-  std::vector<double> here(m_pixels.size()), unguided(m_pixels.size());
-  for (std::size_t i = 0; i < m_pixels.size(); ++i) {
-    const Pixel& p = m_pixels[i];
-    here[i] = variance(p, p.luminance2) / (squaredLevel[i] + floor);
-    unguided[i] = variance(p, p.unguided2) / (squaredLevel[i] + floor);
-  }
-  return {meanWithoutWorst(here), meanWithoutWorst(unguided)};
+  const auto relativeMean = [&](auto&& varianceOf) {
+    std::vector<double> relative(m_pixels.size());
+    for (std::size_t i = 0; i < m_pixels.size(); ++i) relative[i] = varianceOf(i) / (squaredLevel[i] + floor);
+    return meanWithoutWorst(relative);
+  };
+  RelativeVariance result;
+  result.here = relativeMean([this](std::size_t i) { return variance(i); });
+  result.independent = relativeMean([this](std::size_t i) { return variance(m_pixels[i], m_pixels[i].luminance2); });
+  result.unguided = relativeMean([this](std::size_t i) { return variance(m_pixels[i], m_pixels[i].unguided2); });
+  return result;
 }
 
 std::vector<float> Film::pixelVariance() const {

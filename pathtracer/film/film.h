@@ -40,25 +40,34 @@ class Film {
     m_pixels[std::size_t(y) * m_width + x].unguided2 += square;
   }
 
+  /// The samples of a pixel are stratified together, in runs that endReplicate() ends. What they vary by from sample to
+  /// sample says nothing then; variances (but pixelVariance()) are told from the differences between runs instead.
+  void compareReplicates();
+  /// Ends a run. Not while samples are added.
+  void endReplicate();
+
   void clear();
   /// What was added after `earlier`, a copy of this film as it once was.
   Film since(const Film& earlier) const;
   Image mean() const;
-  /// Mean over pixels of the unbiased variance of the pixel's mean, luminance; 0 for fewer than 2 samples a pixel.
+  /// Mean over pixels of the unbiased variance of the pixel's mean, luminance; 0 for fewer than 2 samples a pixel, or
+  /// runs where those are compared.
   double meanVariance() const;
   /// The same over the pixels of each colour of a checkerboard (halfOf) alone.
   std::array<double, 2> halfVariance() const;
   /// Pixels of one half tell nothing of those of the other.
   static int halfOf(int x, int y) noexcept { return (x + y) & 1; }
   struct RelativeVariance {
-    double here = 0;      ///< of this film's samples
-    double unguided = 0;  ///< of as many samples without a guide, as addUnguidedSquare() predicts; black without it
+    double here = 0;         ///< of this film's samples
+    double independent = 0;  ///< of as many that are not stratified
+    double unguided = 0;     ///< of as many without a guide, not stratified, as addUnguidedSquare() predicts; black
+                             ///< without it
   };
   /// Mean over pixels of the variance of the pixel's mean over the squared luminance of a picture, which is raised by a
   /// hundredth of its mean square (black pixels); without the 0.1% that are worst. The picture is levelSum / spp. 0 for
   /// fewer than 2 samples a pixel or a black picture.
   RelativeVariance relativeVariance(const Image& levelSum, double spp) const;
-  /// Unbiased variance of each pixel's mean, luminance.
+  /// Unbiased variance of each pixel's mean, luminance, as if the samples were independent.
   std::vector<float> pixelVariance() const;
   std::uint64_t rejectedSamples() const noexcept;
 
@@ -70,11 +79,23 @@ class Film {
     std::uint32_t count;
     std::uint32_t rejected;
   };
+  /// What the runs of a pixel add up to, luminance.
+  struct Replicates {
+    double ended = 0;       ///< all runs that have ended
+    double difference = 0;  ///< of those, the first, third... less the second, fourth...
+  };
+  static double sumOf(const Pixel& pixel) noexcept;
   static double variance(const Pixel& pixel, double sumOfSquares) noexcept;
+  double variance(std::size_t pixel) const noexcept;
+  double varianceOfReplicates(std::size_t pixel) const noexcept;
 
   int m_width, m_height;
   bool m_allowsNegative;
   std::vector<Pixel> m_pixels;
+  std::vector<Replicates> m_replicates;  ///< empty: not compared
+  std::uint32_t m_ended = 0;             ///< samples of a pixel in the runs that have ended
+  std::uint32_t m_endedOdd = 0;          ///< of those, in the first, third...
+  bool m_isOdd = true;                   ///< so is the run under way
 };
 
 }  // namespace pt

@@ -210,8 +210,8 @@ template <GuideSource Guides>
 auto GuidedPathLoop<Guides>::sampleDirect(const PathState& path, const SurfaceInteraction& si, const SurfaceBsdf& bsdf,
                                           const Distribution& guide, Sampler& sampler,
                                           PathWorker& worker) const noexcept -> DirectLight {
-  const float uLight = sampler.next1D();
-  const LightSample light = m_scene.sampleDirect(path.previous, uLight, sampler.next2D());
+  const auto [uLight, u] = sampler.nextChoice();
+  const LightSample light = m_scene.sampleDirect(path.previous, uLight, u);
   if (!(light.pdf > 0) || isBlack(light.radiance)) return {};
   const BsdfEvaluation f = bsdf.evaluate(light.wi);
   if (isBlack(f.bsdfCos)) return {};
@@ -233,8 +233,8 @@ template <GuideSource Guides>
 bool GuidedPathLoop<Guides>::scatter(PathState& path, const SurfaceInteraction& si, const SurfaceBsdf& bsdf,
                                      const Distribution& guide, Sampler& sampler, PathWorker& worker,
                                      Ray& ray) const noexcept {
-  const float uChoice = sampler.next1D();
-  const auto draw = guiding::sampleMixture(bsdf, guide, uChoice, sampler.next2D());
+  const auto [uChoice, u] = sampler.nextChoice();
+  const auto draw = guiding::sampleMixture(bsdf, guide, uChoice, u);
   ++worker.counters.scatterings;
   if (worker.reflections) worker.reflectionRecorder.addCost(RouletteCost::kScattering);
   if (guide) ++worker.counters.guidedScatterings;

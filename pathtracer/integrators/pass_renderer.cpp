@@ -1,5 +1,7 @@
 #include "integrators/pass_renderer.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <span>
 
 #include "film/pixel_filter.h"
@@ -86,9 +88,14 @@ void PassRenderer::learn(const PassTargets& targets, std::size_t tiles) {
   m_peakRecordBytes = std::max(m_peakRecordBytes, bytes);
 
   const RenderClock clock;
-  if (targets.learner) m_workers.execute([&] { targets.learner->learn(std::span(m_samples).first(tiles)); });
-  if (targets.reflections)
+  const auto learnRadiance = [&] {
+    if (targets.learner) targets.learner->learn(std::span(m_samples).first(tiles));
+  };
+  const auto learnReflections = [&] {  // works on one thread, beside the other
+    if (!targets.reflections) return;
     for (std::size_t i = 0; i < tiles; ++i) targets.reflections->accumulate(m_reflections[i]);
+  };
+  m_workers.execute([&] { tbb::parallel_invoke(learnRadiance, learnReflections); });
   m_trainSeconds += clock.seconds();
 }
 

@@ -1,6 +1,7 @@
 #include "integrators/render.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/error.h"
 #include "integrators/aov_film.h"
@@ -33,6 +34,7 @@ class RenderRun {
   bool guides(const guiding::IterationPlan& plan) const { return m_guide && plan.usesGuide && m_guide->hasGuide(); }
   std::unique_ptr<PathLoop> makeLoop(const guiding::IterationPlan& plan);
   void renderIteration(const guiding::IterationPlan& plan);
+  void numberSamples(const guiding::IterationPlan& plan);
   std::int64_t sppOfNextPass(const guiding::IterationPlan& plan);
   void endPass(std::int64_t spp);
   void closeIteration(const guiding::IterationPlan& plan, bool guided);
@@ -63,6 +65,8 @@ class RenderRun {
 
   std::int64_t m_sppDone = 0;         ///< over all iterations
   std::int64_t m_sppOfIteration = 0;  ///< in the current one
+  std::int64_t m_firstSample = 0;     ///< number of the current iteration's first sample in every pixel
+  std::int64_t m_replicateSpp = 1;    ///< samples of a run that are stratified together (Film::compareReplicates)
   int m_passOfIteration = 0;
   double m_iterationStart = 0;  ///< seconds at which the current iteration began
   double m_renderingEnd = 0;    ///< seconds at which the last pass of the iteration before ended
@@ -88,6 +92,7 @@ RenderRun::RenderRun(const Scene& scene, const RenderSettings& settings, const R
   guiding::ScheduleSettings schedule = settings.guiding->schedule;
   if (settings.learnFinal) schedule.trialShare = 0;  // training for its own sake
   if (!pretrained) m_schedule.emplace(schedule, settings.spp, settings.seconds);
+  if (settings.sampler == SamplerKind::Sobol) m_film.compareReplicates();
   m_guide = pretrained ? pretrainedGuide(std::move(*pretrained), scene) : makeGuide(scene, *settings.guiding);
 }
 
@@ -128,6 +133,7 @@ void RenderRun::renderIteration(const guiding::IterationPlan& plan) {
   PassTargets targets{m_film, m_aovs ? &*m_aovs : nullptr, learns(plan) ? m_guide.get() : nullptr};
 
   m_film.clear();
+  numberSamples(plan);
   m_sppOfIteration = 0;
   m_passOfIteration = 0;
   if (m_roulette) m_roulette->beginIteration(m_schedule && m_schedule->awaitsTrial());
@@ -135,8 +141,8 @@ void RenderRun::renderIteration(const guiding::IterationPlan& plan) {
     const double passStart = m_clock.seconds();
     const std::int64_t count = sppOfNextPass(plan);
     targets.reflections = m_roulette ? m_roulette->learner() : nullptr;
-    m_passes.render(*loop, m_roulette ? m_roulette->roulette() : Roulette(m_settings.path.rrDepth), {m_sppDone, count},
-                    targets);
+    m_passes.render(*loop, m_roulette ? m_roulette->roulette() : Roulette(m_settings.path.rrDepth),
+                    {m_firstSample + m_sppOfIteration, count}, targets);
     endPass(count);
     m_passSeconds = m_clock.seconds() - passStart;
     m_clock.excluded([&] { callHooks(plan); });
@@ -144,10 +150,21 @@ void RenderRun::renderIteration(const guiding::IterationPlan& plan) {
   closeIteration(plan, guides(plan));
 }
 
+/// The samples of an iteration begin where as many of Sobol's points are well stratified together. One of unknown
+/// length has about as many as all before it.
+void RenderRun::numberSamples(const guiding::IterationPlan& plan) {
+  const std::int64_t expected = plan.spp == guiding::TrainingSchedule::kUntilTimeIsOver ? m_sppDone : plan.spp;
+  const auto block = std::int64_t(std::bit_ceil(std::uint64_t(std::max<std::int64_t>(expected, 1))));
+  const std::int64_t end = m_firstSample + m_sppOfIteration;
+  m_firstSample = (end + block - 1) / block * block;
+  m_replicateSpp = std::max<std::int64_t>(1, block / 2);
+}
+
 std::int64_t RenderRun::sppOfNextPass(const guiding::IterationPlan& plan) {
   const std::int64_t pixels = std::int64_t(m_settings.width) * m_settings.height;
   std::int64_t left = plan.spp - m_sppOfIteration;
   if (m_roulette) left = m_roulette->planSamples(left, plan.isFinal);
+  left = std::min(left, m_replicateSpp - m_sppOfIteration % m_replicateSpp);
   return std::min(left, std::max<std::int64_t>(1, kPathsPerPass / pixels));
 }
 
@@ -155,6 +172,7 @@ void RenderRun::endPass(std::int64_t spp) {
   ++m_passOfIteration;
   m_sppDone += spp;
   m_sppOfIteration += spp;
+  if (m_sppOfIteration % m_replicateSpp == 0) m_film.endReplicate();
   if (m_roulette && m_roulette->add(spp)) m_roulette->endWindow(m_film, sumSoFar(), m_sppDone, m_passes.counters());
 }
 
@@ -177,6 +195,7 @@ void RenderRun::closeIteration(const guiding::IterationPlan& plan, bool guided) 
     const Film::RelativeVariance variance = m_film.relativeVariance(m_level, double(m_sppDone));
     report.relativeVariance = outcome.relativeVariance = variance.here;
     report.unguidedRelativeVariance = outcome.unguidedRelativeVariance = variance.unguided;
+    if (variance.here > 0 && variance.independent > 0) outcome.stratification = variance.here / variance.independent;
     outcome.tracingSeconds = report.seconds - report.trainSeconds;
     m_schedule->report(plan, outcome);
   }

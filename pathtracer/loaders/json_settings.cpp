@@ -60,7 +60,7 @@ IntegratorDescription readIntegrator(const Node& node) {
 
 void readSampler(Context& context, const Node& node) {
   ObjectReader reader(node);
-  context.scene.sampler = static_cast<SamplerKind>(reader.choice("type", {"independent", "sobol"}, 0));
+  context.scene.sampler = static_cast<SamplerKind>(reader.choice("type", {"independent", "sobol"}, 1));
   context.scene.spp = reader.integer("spp", context.scene.spp, 1);
   reader.finish();
 }

@@ -115,10 +115,6 @@ void readSampler(Context& context, const Object& object) {
   context.scene.spp = reader.integer("sample_count", 4);
   if (context.scene.spp < 1) reader.fail("sample_count", "must be at least 1");
   reader.ignore({"seed", "scramble", "dimension", "jitter"});
-  const bool isRandom = object.type == "independent";
-  context.scene.sampler = isRandom ? SamplerKind::Independent : SamplerKind::Sobol;
-  if (!isRandom && object.type != "sobol")
-    context.scene.notes.push_back(fmt::format("{}: sampler '{}' is replaced by 'sobol'", object.source, object.type));
   reader.finish();
 }
 

@@ -323,7 +323,7 @@ struct SceneDescription {
   std::filesystem::path file;
   std::optional<CameraDescription> camera;
   FilmDescription film;
-  SamplerKind sampler = SamplerKind::Independent;
+  SamplerKind sampler = SamplerKind::Sobol;
   int spp = 64;
   IntegratorDescription integrator;
   std::vector<TextureDescription> textures;

@@ -294,13 +294,15 @@ TEST_CASE("Guiding that does not pay is left after its trial, and guiding that p
     double guided, unguided, predicted;  ///< relative variance of a sample
     double guidedSeconds;                ///< of a sample; unguided 0.01
     bool pays, paysBySamples;
+    double stratification = 1;
   };
   for (const Case& c :
        {Case{1, 2, 2, 0.01, true, true}, Case{2, 1, 1, 0.01, false, false}, Case{1, 1.5, 1.5, 0.02, false, true},
         Case{2, 1.5, 1.5, 0.005, true, false}, Case{1, 1.2, 1.2, 0.01, true, true},  // by a tenth and more
         Case{1, 1.05, 1.05, 0.01, false, false},                                     // by less
-        Case{1, 0.5, 10, 0.01, true, true},  // rare light that only guided samples have seen
-        Case{0, 1, 1, 0.01, true, true}})    // unknown
+        Case{1, 0.5, 10, 0.01, true, true},          // rare light that only guided samples have seen
+        Case{1, 0.5, 10, 0.01, false, false, 0.05},  // the same, were it not for stratification
+        Case{0, 1, 1, 0.01, true, true}})            // unknown
     for (const bool bySamples : {false, true}) {
       ScheduleSettings s{1, SampleCombination::InverseVariance, 4, 1};
       s.trialShare = 0.1f;
@@ -317,6 +319,7 @@ TEST_CASE("Guiding that does not pay is left after its trial, and guiding that p
         elapsed += outcome.seconds;
         outcome.variance = outcome.relativeVariance = (plan.usesGuide ? c.guided : c.unguided) / n;
         outcome.unguidedRelativeVariance = (plan.usesGuide ? c.predicted : c.unguided) / n;
+        if (!plan.usesGuide) outcome.stratification = c.stratification;
         return outcome;
       });
       CAPTURE(c.guided, c.unguided, c.predicted, c.guidedSeconds, bySamples);

@@ -63,6 +63,10 @@ struct IterationOutcome {
   /// The same of as many samples without the guide, as the samples with it predict; 0 if unknown. It sees what samples
   /// without the guide are too rare to show.
   double unguidedRelativeVariance = 0;
+  /// `relativeVariance` over what it would be if the samples of a pixel were independent: below 1 where they are
+  /// stratified. The variances of stratified samples are those between runs of them, not from sample to sample;
+  /// unguidedRelativeVariance, which is told sample by sample, is that of independent ones.
+  double stratification = 1;
   /// `variance` over the pixels of each half of the picture alone; 0 if unknown. See imageWeights(half).
   std::array<double, 2> halfVariance{};
 };

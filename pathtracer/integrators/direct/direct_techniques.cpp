@@ -15,8 +15,8 @@ constexpr std::array<float, 2> kBsdfAlone{1, 0}, kLightAlone{0, 1};
 TechniqueDraw DirectTechniques::drawBsdf(const SurfaceInteraction& si, const SurfaceBsdf& bsdf, bool knowsLights,
                                          Sampler& sampler, RenderCounters& counters) const noexcept {
   const TechniqueDraw nothing{Spectrum(0.0f), kBsdfAlone};
-  const float uLobe = sampler.next1D();
-  const auto draw = bsdf.sample(uLobe, sampler.next2D());
+  const auto [uLobe, u] = sampler.nextChoice();
+  const auto draw = bsdf.sample(uLobe, u);
   ++counters.scatterings;
   if (!(draw.pdf > 0) || isBlack(draw.weight)) return nothing;
 
@@ -41,8 +41,8 @@ TechniqueDraw DirectTechniques::drawBsdf(const SurfaceInteraction& si, const Sur
 TechniqueDraw DirectTechniques::drawLight(const SurfaceInteraction& si, const SurfaceBsdf& bsdf, Sampler& sampler,
                                           RenderCounters& counters) const noexcept {
   const TechniqueDraw nothing{Spectrum(0.0f), kLightAlone};
-  const float uLight = sampler.next1D();
-  const LightSample light = m_scene.sampleDirect(m_scene.receiver(si), uLight, sampler.next2D());
+  const auto [uLight, u] = sampler.nextChoice();
+  const LightSample light = m_scene.sampleDirect(m_scene.receiver(si), uLight, u);
   if (!(light.pdf > 0) || isBlack(light.radiance)) return nothing;
   const BsdfEvaluation f = bsdf.evaluate(light.wi);
   if (isBlack(f.bsdfCos)) return nothing;

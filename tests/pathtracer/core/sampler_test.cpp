@@ -47,6 +47,17 @@ bool isNet(const std::vector<Vec2>& points, int k) {
   return true;
 }
 
+/// Points of a pixel: the way they choose, and where they fall on it.
+std::vector<Sampler::Choice> choicesOf(SamplerKind kind, int x, std::uint32_t count) {
+  Sampler sampler(kind, 4);
+  std::vector<Sampler::Choice> choices;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    sampler.startPath(x, 0, i);
+    choices.push_back(sampler.nextChoice());
+  }
+  return choices;
+}
+
 /// Squared errors of the mean of `f` over 256 samples in many pixels.
 template <class F>
 double meanSquaredError(SamplerKind kind, const F& f, double truth) {
@@ -76,9 +87,11 @@ TEST_CASE("PCG32 yields the published sequence") {
 TEST_CASE("The unscrambled points are Sobol's") {
   const float expectedX[] = {0, 0.5f, 0.25f, 0.75f, 0.125f, 0.625f, 0.375f, 0.875f};
   const float expectedY[] = {0, 0.5f, 0.75f, 0.25f, 0.625f, 0.125f, 0.375f, 0.875f};
+  const float expectedZ[] = {0, 0.5f, 0.75f, 0.25f, 0.375f, 0.875f, 0.625f, 0.125f};
   for (std::uint32_t i = 0; i < 8; ++i) {
     CHECK(toUnitFloat(reverseBits(i)) == expectedX[i]);
     CHECK(toUnitFloat(reverseBits(sobolSecondReversed(i))) == expectedY[i]);
+    CHECK(toUnitFloat(reverseBits(sobolThirdReversed(i))) == expectedZ[i]);
   }
 }
 
@@ -121,10 +134,32 @@ TEST_CASE("Single dimensions are stratified") {
   CHECK(occupied.size() == 64);
 }
 
+TEST_CASE("Choices are stratified together with the points on each way") {
+  for (const int pixel : {0, 5, 123}) {
+    std::vector<Vec2> points, chosen;
+    std::set<int> ways;
+    for (const auto& [way, point] : choicesOf(SamplerKind::Sobol, pixel, 256)) {
+      points.push_back(point);
+      ways.insert(int(way * 256));
+      if (way < 0.5f) chosen.push_back(point);
+    }
+    CHECK(isNet(points, 8));
+    CHECK(ways.size() == 256);
+    // Half of the points, in one of the two ways: each of 64 squares has two of 128.
+    std::vector<int> count(64);
+    for (const Vec2& p : chosen) ++count[int(p.x * 8) * 8 + int(p.y * 8)];
+    CHECK(std::set<int>(count.begin(), count.end()) == std::set<int>{2});
+  }
+  std::vector<int> count(64);
+  for (const auto& [way, point] : choicesOf(SamplerKind::Independent, 0, 256))
+    count[int(point.x * 8) * 8 + int(point.y * 8)] += way < 0.5f;
+  CHECK(std::set<int>(count.begin(), count.end()).size() > 2);
+}
+
 TEST_CASE("Each number is uniform and dimensions are independent") {
   const auto uniform = [](const Imath::V2d&) { return 1.0; };
   for (const SamplerKind kind : kKinds) {
-    const ChiSquareSettings settings{.samples = 200'000, .tests = 6};
+    const ChiSquareSettings settings{.samples = 200'000, .tests = 10};
     const auto test = [&](const auto& draw) {
       Sampler sampler(kind, 3);
       std::uint32_t count = 0;
@@ -145,7 +180,21 @@ TEST_CASE("Each number is uniform and dimensions are independent") {
       const float x = s.next2D().x;
       return Vec2(x, s.next2D().y);
     });
-    INFO(pair.message << '\n' << singles.message << '\n' << across.message);
+    const ChiSquareResult choice = test([](Sampler& s) {
+      const auto [way, point] = s.nextChoice();
+      return Vec2(way, point.x);
+    });
+    const ChiSquareResult otherChoice = test([](Sampler& s) {
+      const auto [way, point] = s.nextChoice();
+      return Vec2(point.y, way);
+    });
+    INFO(pair.message << '\n'
+                      << singles.message << '\n'
+                      << across.message << '\n'
+                      << choice.message << '\n'
+                      << otherChoice.message);
+    CHECK(choice);
+    CHECK(otherChoice);
     CHECK(pair);
     CHECK(singles);
     CHECK(across);

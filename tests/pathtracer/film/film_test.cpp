@@ -3,7 +3,10 @@
 #include <limits>
 
 #include "catch.h"
+#include "core/sampler.h"
 #include "integrators/iteration_images.h"
+#include "statistics/random.h"
+#include "statistics/z_test.h"
 
 using pt::Film;
 using pt::Spectrum;
@@ -49,6 +52,67 @@ TEST_CASE("The variance of half a picture tells nothing of the other half, and e
   const pt::Image sum = images.combined(pt::ImageWeights{{{0.5, 1.0}, {0.5, 0.0}}});
   for (int y = 0; y < 2; ++y)
     for (int x = 0; x < 3; ++x) CHECK(sum.at(x, y) == Spectrum(Film::halfOf(x, y) == 0 ? 25.0f : 5.0f));
+}
+
+TEST_CASE("Runs of samples tell the variance without bias, whatever their lengths") {
+  for (const auto& lengths : {std::vector{1, 1}, {4, 4}, {4, 4, 4}, {4, 4, 2}, {8, 3}}) {
+    constexpr int kPixels = 20000;
+    Film film(kPixels, 1);
+    film.compareReplicates();
+    test::Random random(3);
+    int samples = 0;
+    for (const int length : lengths) {
+      for (int i = 0; i < length; ++i)
+        for (int x = 0; x < kPixels; ++x) film.add(x, 0, Spectrum(random.next1D()));
+      samples += length;
+      if (&length != &lengths.back()) film.endReplicate();  // the last run may not have ended
+    }
+    // With one degree of freedom the standard error is sqrt(2 / pixels) of the value.
+    const double truth = 1.0 / 12 / samples, relative = film.meanVariance() / truth - 1;
+    CAPTURE(lengths, relative);
+    CHECK(std::abs(relative) < 4.5 * std::sqrt(2.0 / kPixels));
+    // The halves of the picture are told apart as before, and clearing forgets all.
+    CHECK((film.halfVariance()[0] + film.halfVariance()[1]) / 2 == Approx(film.meanVariance()).epsilon(1e-6));
+    film.clear();
+    CHECK(film.meanVariance() == 0);
+  }
+}
+
+TEST_CASE("A single run has no known variance") {
+  Film film(1, 1);
+  film.compareReplicates();
+  for (int i = 0; i < 4; ++i) film.add(0, 0, Spectrum(float(i)));
+  CHECK(film.meanVariance() == 0);
+  film.endReplicate();
+  CHECK(film.meanVariance() == 0);
+  film.add(0, 0, Spectrum(5));
+  CHECK(film.meanVariance() > 0);
+}
+
+TEST_CASE("Of stratified samples runs tell the error, and sample by sample does not") {
+  constexpr int kPixels = 4000, kSamples = 64;
+  Film film(kPixels, 1);
+  film.compareReplicates();
+  pt::Sampler sampler(pt::SamplerKind::Sobol, 8);
+  for (std::uint32_t i = 0; i < kSamples; ++i) {
+    for (int x = 0; x < kPixels; ++x) {
+      sampler.startPath(x, 0, i);
+      const pt::Vec2 u = sampler.next2D();
+      film.add(x, 0, Spectrum(u.x * u.x + u.y < 1 ? 1.0f : 0.0f));  // an edge; the truth is 2/3
+    }
+    if ((i + 1) % (kSamples / 2) == 0) film.endReplicate();
+  }
+  const pt::Image mean = film.mean();
+  double error = 0;
+  for (const Spectrum& pixel : mean.pixels) error += (pixel.x - 2.0 / 3) * (pixel.x - 2.0 / 3) / kPixels;
+  // The difference of halves knows no more than the error of half as many samples.
+  CHECK(film.meanVariance() > 0.9 * error);
+  CHECK(film.meanVariance() < 4 * error);
+  pt::Image level(kPixels, 1);
+  std::fill(level.pixels.begin(), level.pixels.end(), Spectrum(1));
+  const Film::RelativeVariance relative = film.relativeVariance(level, 1);
+  CHECK(relative.here < 4 * error);
+  CHECK(relative.independent > 5 * error);
 }
 
 TEST_CASE("A single sample has no known variance") {

@@ -32,7 +32,7 @@ TEST_CASE("an empty scene has the documented defaults") {
   CHECK(scene.film.width == 768);
   CHECK(scene.film.height == 576);
   CHECK(scene.film.filter == ReconstructionFilter::Box);
-  CHECK(scene.sampler == SamplerKind::Independent);
+  CHECK(scene.sampler == SamplerKind::Sobol);
   CHECK(scene.spp == 64);
   CHECK(scene.integrator.maxDepth == -1);
   CHECK(scene.integrator.rrDepth == 5);
@@ -102,7 +102,7 @@ TEST_CASE("camera, film, integrator and sampler") {
     "camera": {"type": "perspective", "transform": {"translate": [1, 2, 3]}, "fov": 30, "fovAxis": "smaller", "nearClip": 0.5, "farClip": 100},
     "film": {"width": 64, "height": 32, "filter": "gaussian"},
     "integrator": {"maxDepth": 8, "rrDepth": 3, "strictNormals": true, "hideEmitters": true},
-    "sampler": {"type": "sobol", "spp": 16}})");
+    "sampler": {"type": "independent", "spp": 16}})");
   CHECK(isNear(apply(scene.camera->toWorld, Vec3(0, 0, 0)), Vec3(1, 2, 3)));
   CHECK(scene.camera->fovDegrees == 30);
   CHECK(scene.camera->fovAxis == FovAxis::Smaller);
@@ -113,7 +113,7 @@ TEST_CASE("camera, film, integrator and sampler") {
   CHECK(scene.integrator.maxDepth == 8);
   CHECK(scene.integrator.strictNormals);
   CHECK(scene.integrator.hideEmitters);
-  CHECK(scene.sampler == SamplerKind::Sobol);
+  CHECK(scene.sampler == SamplerKind::Independent);
   CHECK(scene.spp == 16);
 }
 
