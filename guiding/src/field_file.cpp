@@ -89,8 +89,8 @@ Status savePayload(std::span<const std::uint8_t> payload, const fs::path& path) 
   return Success{};
 }
 
-/// The payload, once all that can be told from the header is right.
-Result<std::vector<std::uint8_t>> loadPayload(const fs::path& path) {
+/// The payload, once all that can be told from the header is right. mostBytes 0: no limit.
+Result<std::vector<std::uint8_t>> loadPayload(const fs::path& path, std::size_t mostBytes) {
   std::error_code failed;
   if (!fs::is_regular_file(path, failed))
     return Error{ErrorCode::Io, path.string() + ": there is no such file, or it is not a regular one"};
@@ -110,6 +110,10 @@ Result<std::vector<std::uint8_t>> loadPayload(const fs::path& path) {
   const auto expected = header.get<std::uint64_t>();
   if (size != kHeaderBytes + payloadSize)
     return formatError(path, "is truncated or has bytes after its end; train the field again");
+  if (mostBytes > 0 && payloadSize > mostBytes)
+    return Error{ErrorCode::OutOfMemory, path.string() + ": holds " + std::to_string(payloadSize) +
+                                             " bytes, more than the limit of " + std::to_string(mostBytes) +
+                                             "; raise the limit if the file is to be trusted"};
 
   std::vector<std::uint8_t> payload(payloadSize);
   if (std::fread(payload.data(), 1, payload.size(), file.get()) != payload.size())
@@ -131,12 +135,14 @@ Status save(const Field& field, const fs::path& path) noexcept {
   return withoutThrowing([&] { return savePayload(payloadOf(FieldFile::stateOf(field)), path); });
 }
 
-Result<Field> load(const fs::path& path) noexcept {
+Result<Field> load(const fs::path& path, std::size_t maxMemoryBytes) noexcept {
   return withoutThrowing([&]() -> Result<Field> {
-    const Result<std::vector<std::uint8_t>> payload = loadPayload(path);
+    const Result<std::vector<std::uint8_t>> payload = loadPayload(path, maxMemoryBytes);
     if (!payload) return payload.error();
     std::unique_ptr<Field::State> state = stateOf(payload.value());
     if (!state) return formatError(path, "holds an inconsistent field; train the field again");
+    std::size_t& cap = state->settings.maxMemoryBytes;
+    if (maxMemoryBytes > 0 && (cap == 0 || cap > maxMemoryBytes)) cap = maxMemoryBytes;
     return FieldFile::fieldOf(std::move(state));
   });
 }

@@ -56,9 +56,10 @@ bool isProbability(float p) {
   return p >= 0 && p <= 1;
 }
 
-Status validateFrozen(const GuidingDensity& density, std::size_t index, int maxDepth) {
+/// firstNode: where the tree before it ends.
+Status validateFrozen(const GuidingDensity& density, std::size_t index, std::size_t firstNode, int maxDepth) {
   const GuidingDensity::Tree& tree = density.trees()[index];
-  if (std::size_t(tree.firstNode) + tree.nodeCount > density.nodes().size())
+  if (tree.firstNode != firstNode || tree.nodeCount > density.nodes().size() - firstNode)
     return violation("extent of frozen tree", index);
   const GuidingDensity::Node* nodes = density.nodes().data() + tree.firstNode;
   const auto roots = std::size_t(std::popcount(tree.subdivided));
@@ -98,10 +99,13 @@ Status validateState(const Field::State& state) {
     if (state.densityOfLeaf[leaf] != GuidingDensity::kNoGuide && tree >= state.density.trees().size())
       return violation("density of spatial leaf", leaf);
   }
+  std::size_t firstNode = 0;
   for (std::size_t tree = 0; tree < state.density.trees().size(); ++tree) {
-    const Status frozen = validateFrozen(state.density, tree, maxDepth);
+    const Status frozen = validateFrozen(state.density, tree, firstNode, maxDepth);
     if (!frozen) return frozen;
+    firstNode += state.density.trees()[tree].nodeCount;
   }
+  if (firstNode != state.density.nodes().size()) return violation("nodes of no frozen tree", firstNode);
   return Success{};
 }
 

@@ -158,7 +158,15 @@ Film::RelativeVariance Film::relativeVariance(const Image& levelSum, double spp)
   RelativeVariance result;
   result.here = relativeMean([this](std::size_t i) { return variance(i); });
   result.independent = relativeMean([this](std::size_t i) { return variance(m_pixels[i], m_pixels[i].luminance2); });
-  result.unguided = relativeMean([this](std::size_t i) { return variance(m_pixels[i], m_pixels[i].unguided2); });
+  // Second moment without the guide less the square of the mean, which is too large by the variance of the mean. Few
+  // samples may well predict less than 0 of a pixel; without those pixels the mean would be far too large.
+  result.unguided = std::max(0.0, relativeMean([this](std::size_t i) {
+                               const Pixel& p = m_pixels[i];
+                               const double n = p.count;
+                               if (p.count < 2) return 0.0;
+                               const double mean = sumOf(p) / n;
+                               return (p.unguided2 / n - mean * mean + variance(p, p.luminance2)) / n;
+                             }));
   return result;
 }
 

@@ -98,7 +98,7 @@ void operator delete[](void* p, std::size_t, std::align_val_t) noexcept {
 TEST_CASE("The field survives every failure of memory in training") {
   Field field = trainedField();
   Random random(1);
-  const SampleBuffer samples = record(field, coneRadiance, 40'000, random);
+  const SampleBuffer samples = record(field, coneRadiance, 5'000, random);
   const std::vector<SampleBuffer> buffers{samples, samples};
 
   int failures = failUntilItWorks([&] { return field.accumulate(buffers); });

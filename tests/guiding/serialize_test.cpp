@@ -229,6 +229,41 @@ TEST_CASE("Foreign files are told apart") {
   CHECK_THAT(result.error().text, Catch::Contains("version"));
 }
 
+TEST_CASE("A limit of memory holds for a forged file and for what learning makes of it") {
+  FieldSettings settings = FieldSettings::mueller2017();
+  settings.sTreeThreshold = 1;
+  Field field = makeField(settings);
+  Random random(1);
+  REQUIRE(field.accumulate(record(field, coneRadiance, 1'000, random)));
+  Bytes bytes = bytesOf(field);
+  // The counts of all samples and of those in the only leaf claim 2^62.
+  const std::uint64_t honest = 1'000, claimed = std::uint64_t(1) << 62;
+  int forgeries = 0;
+  for (std::size_t i = kPayloadAt; i + sizeof honest <= bytes.size() && forgeries < 2; ++i)
+    if (std::memcmp(bytes.data() + i, &honest, sizeof honest) == 0) {
+      std::memcpy(bytes.data() + i, &claimed, sizeof claimed);
+      ++forgeries;
+    }
+  REQUIRE(forgeries == 2);
+  const TemporaryFile file("forged.field");
+  writeBytes(file.path(), forged(bytes));
+
+  constexpr std::size_t kLimit = 1 << 20;
+  Result<Field> loaded = load(file.path(), kLimit);
+  REQUIRE(loaded.ok());
+  CHECK(loaded.value().settings().maxMemoryBytes == kLimit);
+  REQUIRE(loaded.value().endIteration(4));
+  CHECK(loaded.value().stats().spatialLeaves > 1);
+  CHECK(loaded.value().stats().memoryBytes < kLimit);
+  CHECK(loaded.value().stats().memoryCapReached);
+  CHECK(loaded.value().validate());
+
+  const Result<Field> refused = load(file.path(), 100);
+  REQUIRE(failsAs(ErrorCode::OutOfMemory, refused));
+  CHECK_THAT(refused.error().text, Catch::Contains("limit of 100"));
+  CHECK(load(file.path()).value().settings().maxMemoryBytes == 0);
+}
+
 TEST_CASE("A sparse file of a terabyte is not read before it is known to be a field") {
   const TemporaryFile file("huge.field");
   writeBytes(file.path(), Bytes(100, 'x'));

@@ -33,6 +33,23 @@ TEST_CASE("A film estimates the variance of each pixel's mean without bias") {
   CHECK(film.meanVariance() == Approx(7.0 / 12).epsilon(1e-6));
 }
 
+TEST_CASE("What few samples predict of the variance without a guide is right in the mean over pixels") {
+  // Two samples of 1 each; without a guide they would be 0 or 2, as likely. A sample in four speaks for them, for 4
+  // each: of most pixels a variance below 0 is predicted, which must stay as it is.
+  constexpr int kSide = 64;
+  Film film(kSide, kSide);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x)
+      for (int i = 0; i < 2; ++i) {
+        film.add(x, y, Spectrum(1));
+        film.addUnguidedSquare(x, y, (x + 2 * y + i) % 4 == 0 ? 8 : 0);  // mean 2, as that of 0 and 4
+      }
+  pt::Image sum(kSide, kSide);
+  pt::addWeighted(sum, film.mean(), 2.0);
+  CHECK(film.relativeVariance(sum, 2).here == Approx(0).margin(1e-9));
+  CHECK(film.relativeVariance(sum, 2).unguided == Approx(0.5 / 1.01).epsilon(0.01));  // clamped: 1.5 times that
+}
+
 TEST_CASE("The variance of half a picture tells nothing of the other half, and each half has weights of its own") {
   Film film(3, 2);
   for (int y = 0; y < 2; ++y)
