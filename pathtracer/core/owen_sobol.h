@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 
 #include "core/types.h"
@@ -46,14 +47,15 @@ inline constexpr auto kSobolThird = [] {
   column[0] = 1;
   column[1] = 3;
   for (int j = 2; j < 32; ++j) column[j] = 2 * column[j - 1] ^ 4 * column[j - 2] ^ column[j - 2];
+  for (int j = 0; j < 32; ++j) {
+    std::uint32_t reversed = 0;
+    for (int digit = 0; digit <= j; ++digit) reversed |= (column[j] >> digit & 1) << (j - digit);
+    column[j] = reversed;
+  }
   std::array<std::array<std::uint32_t, 256>, 4> table{};
   for (int byte = 0; byte < 4; ++byte)
-    for (int value = 0; value < 256; ++value)
-      for (int bit = 0; bit < 8; ++bit) {
-        if (!(value >> bit & 1)) continue;
-        const int j = 8 * byte + bit;
-        for (int digit = 0; digit <= j; ++digit) table[byte][value] ^= (column[j] >> digit & 1) << (j - digit);
-      }
+    for (int value = 1; value < 256; ++value)  // one bit more than a value before it: few steps, which compilers limit
+      table[byte][value] = table[byte][value & (value - 1)] ^ column[8 * byte + std::countr_zero(unsigned(value))];
   return table;
 }();
 
