@@ -2,7 +2,10 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
+
+#include "task_order.h"
 
 namespace pt {
 
@@ -10,7 +13,23 @@ namespace {
 int threadCount(int requested) {
   return requested > 0 ? requested : tbb::this_task_arena::max_concurrency();
 }
+
+void runIn(guiding::TaskOrder& order, const std::function<void()>& work) {
+  const guiding::TaskOrder::Task task(order);
+  work();
+}
 }  // namespace
+
+void parallelFor(std::size_t count, const std::function<void(std::size_t)>& task) {
+  guiding::TaskOrder order;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, count, 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        const guiding::TaskOrder::Task ordered(order);
+        for (std::size_t i = range.begin(); i != range.end(); ++i) task(i);
+      },
+      tbb::simple_partitioner());
+}
 
 struct Workers::Impl {
   explicit Impl(int threads)
@@ -28,19 +47,19 @@ int Workers::count() const noexcept {
 }
 
 void Workers::forEach(std::size_t count, const std::function<void(std::size_t, int)>& task) {
-  m_impl->arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, count, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          const int worker = tbb::this_task_arena::current_thread_index();
-          for (std::size_t i = range.begin(); i != range.end(); ++i) task(i, worker);
-        },
-        tbb::simple_partitioner());
-  });
+  execute([&] { parallelFor(count, [&](std::size_t i) { task(i, tbb::this_task_arena::current_thread_index()); }); });
 }
 
 void Workers::execute(const std::function<void()>& work) {
-  m_impl->arena.execute(work);
+  guiding::TaskOrder order;
+  m_impl->arena.execute([&] { runIn(order, work); });
+}
+
+void Workers::invoke(const std::function<void()>& first, const std::function<void()>& second) {
+  execute([&] {
+    guiding::TaskOrder order;
+    tbb::parallel_invoke([&] { runIn(order, first); }, [&] { runIn(order, second); });
+  });
 }
 
 }  // namespace pt

@@ -1,7 +1,5 @@
 #include "integrators/pass_renderer.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <span>
 
 #include "film/pixel_filter.h"
@@ -95,7 +93,7 @@ void PassRenderer::learn(const PassTargets& targets, std::size_t tiles) {
     if (!targets.reflections) return;
     for (std::size_t i = 0; i < tiles; ++i) targets.reflections->accumulate(m_reflections[i]);
   };
-  m_workers.execute([&] { tbb::parallel_invoke(learnRadiance, learnReflections); });
+  m_workers.invoke(learnRadiance, learnReflections);
   m_trainSeconds += clock.seconds();
 }
 

@@ -1,9 +1,8 @@
 #include "lights/predict_environment.h"
 
-#include <tbb/parallel_for.h>
-
 #include <vector>
 
+#include "core/parallel.h"
 #include "core/types.h"
 
 namespace pt {
@@ -64,7 +63,7 @@ Moments momentsFor(const std::vector<Texel>& texels, const Vec3& normal) {
 double predictVariance(const guiding::EnvironmentImage& map, std::span<const float> sampling) {
   const std::vector<Texel> texels = texelsOf(map, sampling);
   std::vector<Moments> moments(kNormals);
-  tbb::parallel_for(0, kNormals, [&](int i) { moments[std::size_t(i)] = momentsFor(texels, normalOf(i)); });
+  parallelFor(kNormals, [&](std::size_t i) { moments[i] = momentsFor(texels, normalOf(int(i))); });
   Moments sum;
   for (const Moments& m : moments) {
     sum.variance += m.variance;

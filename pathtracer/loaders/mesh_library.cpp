@@ -1,9 +1,8 @@
 #include "loaders/mesh_library.h"
 
-#include <tbb/parallel_for.h>
-
 #include <mutex>
 
+#include "core/parallel.h"
 #include "loaders/loader_error.h"
 
 namespace pt {
@@ -27,19 +26,16 @@ void MeshLibrary::load(const std::function<void(std::size_t read, std::size_t al
   for (auto& [file, entry] : m_entries) jobs.push_back({&file, &entry, {}});
   std::mutex telling;
   std::size_t read = 0;
-  tbb::parallel_for(
-      std::size_t(0), jobs.size(),
-      [&](std::size_t i) {
-        try {
-          *jobs[i].entry->mesh = readMesh(*jobs[i].file);
-        } catch (const InputError& error) {
-          jobs[i].error = error.what();
-        }
-        if (!onMesh) return;
-        const std::lock_guard lock(telling);
-        onMesh(++read, jobs.size());
-      },
-      tbb::simple_partitioner());
+  parallelFor(jobs.size(), [&](std::size_t i) {
+    try {
+      *jobs[i].entry->mesh = readMesh(*jobs[i].file);
+    } catch (const InputError& error) {
+      jobs[i].error = error.what();
+    }
+    if (!onMesh) return;
+    const std::lock_guard lock(telling);
+    onMesh(++read, jobs.size());
+  });
   for (const Job& job : jobs)
     if (!job.error.empty()) failAt(job.entry->source, job.error);
 }

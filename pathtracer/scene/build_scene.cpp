@@ -1,9 +1,9 @@
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <exception>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "lights/constant_light.h"
 #include "lights/cylinder_light.h"
 #include "lights/directional_light.h"
@@ -105,7 +105,7 @@ class SceneBuilder {
   std::vector<BakedShape> bakeAll(const std::vector<const ShapeDescription*>& shapes) const {
     std::vector<BakedShape> baked(shapes.size());
     std::vector<std::exception_ptr> faults(shapes.size());
-    tbb::parallel_for(std::size_t(0), shapes.size(), [&](std::size_t i) {
+    parallelFor(shapes.size(), [&](std::size_t i) {
       try {
         const bool inWorld = i < m_description.shapes.size();  // groups have a space of their own
         baked[i] =

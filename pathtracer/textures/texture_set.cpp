@@ -1,13 +1,13 @@
 #include "textures/texture_set.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <exception>
 #include <functional>
 #include <map>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "textures/bitmap.h"
 #include "textures/cached_texels.h"
 #include "textures/checkerboard.h"
@@ -72,18 +72,15 @@ void forEachPicture(Pictures& pictures, F f) {
   std::vector<Pictures::value_type*> all;
   for (auto& entry : pictures) all.push_back(&entry);
   std::vector<std::exception_ptr> faults(all.size());
-  tbb::parallel_for(
-      std::size_t(0), all.size(),
-      [&](std::size_t i) {
-        try {
-          f(all[i]->first, all[i]->second);
-        } catch (const InputError& error) {
-          faults[i] = std::make_exception_ptr(InputError(all[i]->second.source + ": " + error.what()));
-        } catch (...) {
-          faults[i] = std::current_exception();
-        }
-      },
-      tbb::simple_partitioner());
+  parallelFor(all.size(), [&](std::size_t i) {
+    try {
+      f(all[i]->first, all[i]->second);
+    } catch (const InputError& error) {
+      faults[i] = std::make_exception_ptr(InputError(all[i]->second.source + ": " + error.what()));
+    } catch (...) {
+      faults[i] = std::current_exception();
+    }
+  });
   for (const auto& fault : faults)
     if (fault) std::rethrow_exception(fault);
 }
