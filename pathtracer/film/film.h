@@ -43,6 +43,7 @@ class Film {
   /// The samples of a pixel are stratified together, in runs that endReplicate() ends. What they vary by from sample to
   /// sample says nothing then; variances (but pixelVariance()) are told from the differences between runs instead.
   void compareReplicates();
+  bool comparesReplicates() const noexcept { return !m_replicates.empty(); }
   /// Ends a run. Not while samples are added.
   void endReplicate();
 

@@ -92,7 +92,7 @@ RenderRun::RenderRun(const Scene& scene, const RenderSettings& settings, const R
   guiding::ScheduleSettings schedule = settings.guiding->schedule;
   if (settings.learnFinal) schedule.trialShare = 0;  // training for its own sake
   if (!pretrained) m_schedule.emplace(schedule, settings.spp, settings.seconds);
-  if (settings.sampler == SamplerKind::Sobol) m_film.compareReplicates();
+  if (m_schedule && settings.sampler == SamplerKind::Sobol) m_film.compareReplicates();
   m_guide = pretrained ? pretrainedGuide(std::move(*pretrained), scene) : makeGuide(scene, *settings.guiding);
 }
 
@@ -157,7 +157,7 @@ void RenderRun::numberSamples(const guiding::IterationPlan& plan) {
   const auto block = std::int64_t(std::bit_ceil(std::uint64_t(std::max<std::int64_t>(expected, 1))));
   const std::int64_t end = m_firstSample + m_sppOfIteration;
   m_firstSample = (end + block - 1) / block * block;
-  m_replicateSpp = std::max<std::int64_t>(1, block / 2);
+  m_replicateSpp = m_film.comparesReplicates() ? std::max<std::int64_t>(1, block / 2) : plan.spp;
 }
 
 std::int64_t RenderRun::sppOfNextPass(const guiding::IterationPlan& plan) {
