@@ -24,6 +24,8 @@ Status ScheduleSettings::validate() const {
   if (!(trainingShare > 0 && trainingShare <= 1))
     return Error{ErrorCode::InvalidArgument, "trainingShare must lie in (0, 1]"};
   if (!(trialShare >= 0 && trialShare < 1)) return Error{ErrorCode::InvalidArgument, "trialShare must lie in [0, 1)"};
+  if (!(finalRatio >= 0 && std::isfinite(finalRatio)))
+    return Error{ErrorCode::InvalidArgument, "finalRatio must be finite and not negative"};
   if (combinedIterations < 1) return Error{ErrorCode::InvalidArgument, "combinedIterations must be at least 1"};
   return Success{};
 }
@@ -68,9 +70,8 @@ IterationPlan TrainingSchedule::next() const {
   }
 
   plan.keepsDensity = m_settings.combination == SampleCombination::Automatic && trainingShouldEnd();
-  // An iteration that would leave less than twice itself takes the rest: no tiny last iteration.
   const bool isTrained = budget - remaining + expectedCost > m_settings.trainingShare * budget;
-  plan.isFinal = plan.keepsDensity || isTrained || remaining - expectedCost < 2 * expectedCost;
+  plan.isFinal = plan.keepsDensity || isTrained || remaining - expectedCost < m_settings.finalRatio * expectedCost;
   if (plan.isFinal) plan.spp = m_sppBudget > 0 ? std::int64_t(remaining) : kUntilTimeIsOver;
   return plan;
 }

@@ -55,6 +55,7 @@ void visitMembers(Is<guiding::ScheduleSettings> auto& s, auto&& visitor) {
   visitor("combinedIterations", s.combinedIterations);
   visitor("trainingShare", s.trainingShare);
   visitor("trialShare", s.trialShare);
+  visitor("finalRatio", s.finalRatio);
 }
 
 void visitMembers(Is<OpenPglSettings> auto& s, auto&& visitor) {

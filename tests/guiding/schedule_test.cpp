@@ -358,6 +358,26 @@ TEST_CASE("Budgets too small for a trial have none") {
   }
 }
 
+TEST_CASE("The last iteration is as long as its ratio to the one before asks") {
+  for (const float ratio : {0.0f, 0.5f, 1.0f, 2.0f, 5.0f})
+    for (const std::int64_t budget : {40, 100, 127, 200, 255}) {
+      ScheduleSettings s{1, SampleCombination::InverseVariance, 4, 1};
+      s.finalRatio = ratio;
+      TrainingSchedule schedule(s, budget, 0);
+      const auto iterations = run(schedule, withVariance({1}));
+      CAPTURE(ratio, budget);
+      std::int64_t spent = 0;
+      for (std::size_t i = 0; i < iterations.size(); ++i) {
+        const std::int64_t length = std::int64_t(1) << i;
+        const bool isLast = double(budget - spent - length) < double(ratio) * double(length);
+        CHECK(iterations[i].plan.isFinal == isLast);
+        CHECK(iterations[i].plan.spp == (isLast ? budget - spent : length));
+        spent += iterations[i].plan.spp;
+      }
+      CHECK(spent == budget);
+    }
+}
+
 TEST_CASE("A time budget is spent, training counted in") {
   for (const auto combination :
        {SampleCombination::Discard, SampleCombination::Automatic, SampleCombination::InverseVariance})
@@ -409,6 +429,12 @@ TEST_CASE("Schedule settings out of range are refused by name") {
     s.trialShare = bad;
     REQUIRE(!s.validate());
     CHECK_THAT(s.validate().error().text, Catch::Contains("trialShare"));
+  }
+  for (const float bad : {-0.1f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+    s = {};
+    s.finalRatio = bad;
+    REQUIRE(!s.validate());
+    CHECK_THAT(s.validate().error().text, Catch::Contains("finalRatio"));
   }
   s = {};
   s.combination = SampleCombination(7);

@@ -23,18 +23,21 @@ struct ScheduleSettings {
   int sppPerPass = 4;  ///< range: [1, 2^20]
   SampleCombination combination = SampleCombination::Automatic;
   int combinedIterations = 4;  ///< how many of the last iterations InverseVariance combines; >= 1
-  /// Training ends before the iteration with which it would exceed this share of the budget. Range: (0, 1]; at 1/2 and
-  /// above the doubling alone decides: an iteration that would leave less than twice itself is the last.
+  /// Training ends before the iteration with which it would exceed this share of the budget. Range: (0, 1]; 1:
+  /// finalRatio alone decides.
   float trainingShare = 1;
   /// Guiding must pay: about when this share of the budget is spent, an iteration's samples are repeated without the
   /// guide, and unless those with it are the more efficient ones by a tenth, the rest of the budget goes without it
   /// too. Efficiency is told by IterationOutcome::relativeVariance and the cost of tracing: seconds, or samples where
   /// the budget is in samples. Range: [0, 1); 0: guiding is not put on trial.
   float trialShare = 0;
+  /// An iteration that would leave less than this many times itself of the budget takes all that is left, and is the
+  /// last. Range: >= 0, finite.
+  float finalRatio = 2;
 
   static ScheduleSettings mueller2017() { return {}; }
   static ScheduleSettings production2019() { return {1, SampleCombination::InverseVariance, 4, 1}; }
-  static ScheduleSettings recommended() { return {1, SampleCombination::InverseVariance, 4, 1, 0.1f}; }
+  static ScheduleSettings recommended() { return {1, SampleCombination::InverseVariance, 4, 1, 0.1f, 1}; }
   static ScheduleSettings boundProduct() { return {1, SampleCombination::InverseVariance, 4, 0.25f, 0.1f}; }
   Status validate() const;
 };
