@@ -8,6 +8,7 @@
 #include "core/replace_file.h"
 #include "core/srgb.h"
 #include "film/exr_header.h"
+#include "film/png_header.h"
 #include "scene/scene_description.h"
 
 namespace pt {
@@ -123,6 +124,7 @@ Image readImage(const fs::path& file) {
   if (!fs::exists(file, ignored)) failToRead(file, "there is no such file");
   if (!fs::is_regular_file(file, ignored)) failToRead(file, "it is no file but a folder, a device or a pipe");
   if (const auto fault = faultOfExrHeader(file)) failToRead(file, *fault);
+  if (const auto fault = faultOfPngChunks(file)) failToRead(file, *fault);
   const auto input = OIIO::ImageInput::open(file.string());
   if (!input) failToRead(file, OIIO::geterror());
   return readColours(file, *input);

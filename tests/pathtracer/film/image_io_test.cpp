@@ -10,6 +10,7 @@
 #include "catch.h"
 #include "core/error.h"
 #include "film/exr_header.h"
+#include "film/png_header.h"
 
 using namespace pt;
 using Catch::Matchers::Contains;
@@ -179,6 +180,23 @@ TEST_CASE("A header of attributes that are larger than the file is refused, wher
     std::ofstream(cut, std::ios::binary | std::ios::trunc) << bytes.substr(0, size);
     CHECK_THROWS_AS(readImage(cut), InputError);
   }
+}
+
+TEST_CASE("A PNG file with a chunk that is larger than the file is refused before memory is taken for it") {
+  const Folder folder;
+  const fs::path whole = folder.path / "whole.png", cut = folder.path / "cut.png";
+  writePng(whole, gradient(16, 16), 0);
+  std::ifstream stream(whole, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+  CHECK(!faultOfPngChunks(whole));
+  std::string forged = bytes;
+  const std::size_t at = forged.find("IDAT");
+  REQUIRE(at < forged.size());
+  forged.replace(at - 4, 4, "MMMM");
+  std::ofstream(cut, std::ios::binary) << forged;
+  CHECK_THROWS_WITH(readImage(cut), Contains("chunk 'IDAT' is cut short: 1296911693 bytes are announced"));
+  std::ofstream(cut, std::ios::binary | std::ios::trunc) << bytes.substr(0, at + 8);
+  CHECK_THROWS_WITH(readImage(cut), Contains("cut.png") && Contains("chunk 'IDAT' is cut short"));
 }
 
 TEST_CASE("Devices, pipes and folders are no pictures") {
