@@ -100,15 +100,11 @@ double Film::sumOf(const Pixel& p) noexcept {
   return luminance(p.sum[0], p.sum[1], p.sum[2]);
 }
 
-double Film::variance(const Pixel& p, double sumOfSquares) noexcept {
+double Film::variance(const Pixel& p) noexcept {
   if (p.count < 2) return 0;
   const double n = p.count;
   const double mean = sumOf(p) / n;
-  return std::max(0.0, sumOfSquares / n - mean * mean) / (n - 1);
-}
-
-double Film::variance(std::size_t pixel) const noexcept {
-  return m_replicates.empty() ? variance(m_pixels[pixel], m_pixels[pixel].luminance2) : varianceOfReplicates(pixel);
+  return std::max(0.0, p.luminance2 / n - mean * mean) / (n - 1);
 }
 
 /// With runs whose means vary as 1 / length the difference of the means a and b of two halves of n = na + nb samples
@@ -126,7 +122,7 @@ double Film::varianceOfReplicates(std::size_t pixel) const noexcept {
 
 double Film::meanVariance() const {
   double sum = 0;
-  for (std::size_t i = 0; i < m_pixels.size(); ++i) sum += variance(i);
+  for (const Pixel& p : m_pixels) sum += variance(p);
   return m_pixels.empty() ? 0 : sum / double(m_pixels.size());
 }
 
@@ -134,7 +130,7 @@ std::array<double, 2> Film::halfVariance() const {
   std::array<double, 2> sum{}, count{};
   for (int y = 0; y < m_height; ++y)
     for (int x = 0; x < m_width; ++x) {
-      sum[halfOf(x, y)] += variance(std::size_t(y) * m_width + x);
+      sum[halfOf(x, y)] += variance(m_pixels[std::size_t(y) * m_width + x]);
       ++count[halfOf(x, y)];
     }
   for (int half = 0; half < 2; ++half) sum[half] /= std::max(count[half], 1.0);
@@ -156,8 +152,9 @@ Film::RelativeVariance Film::relativeVariance(const Image& levelSum, double spp)
     return meanWithoutWorst(relative);
   };
   RelativeVariance result;
-  result.here = relativeMean([this](std::size_t i) { return variance(i); });
-  result.independent = relativeMean([this](std::size_t i) { return variance(m_pixels[i], m_pixels[i].luminance2); });
+  result.independent = relativeMean([this](std::size_t i) { return variance(m_pixels[i]); });
+  result.here = comparesReplicates() ? relativeMean([this](std::size_t i) { return varianceOfReplicates(i); })
+                                     : result.independent;
   // Second moment without the guide less the square of the mean, which is too large by the variance of the mean. Few
   // samples may well predict less than 0 of a pixel; without those pixels the mean would be far too large.
   result.unguided = std::max(0.0, relativeMean([this](std::size_t i) {
@@ -165,15 +162,14 @@ Film::RelativeVariance Film::relativeVariance(const Image& levelSum, double spp)
                                const double n = p.count;
                                if (p.count < 2) return 0.0;
                                const double mean = sumOf(p) / n;
-                               return (p.unguided2 / n - mean * mean + variance(p, p.luminance2)) / n;
+                               return (p.unguided2 / n - mean * mean + variance(p)) / n;
                              }));
   return result;
 }
 
 std::vector<float> Film::pixelVariance() const {
   std::vector<float> result(m_pixels.size());
-  std::transform(m_pixels.begin(), m_pixels.end(), result.begin(),
-                 [](const Pixel& p) { return float(variance(p, p.luminance2)); });
+  std::transform(m_pixels.begin(), m_pixels.end(), result.begin(), [](const Pixel& p) { return float(variance(p)); });
   return result;
 }
 

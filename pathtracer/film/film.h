@@ -41,7 +41,7 @@ class Film {
   }
 
   /// The samples of a pixel are stratified together, in runs that endReplicate() ends. What they vary by from sample to
-  /// sample says nothing then; variances (but pixelVariance()) are told from the differences between runs instead.
+  /// sample says nothing of their mean then; RelativeVariance::here is told from the differences between runs instead.
   void compareReplicates();
   bool comparesReplicates() const noexcept { return !m_replicates.empty(); }
   /// Ends a run. Not while samples are added.
@@ -51,8 +51,8 @@ class Film {
   /// What was added after `earlier`, a copy of this film as it once was.
   Film since(const Film& earlier) const;
   Image mean() const;
-  /// Mean over pixels of the unbiased variance of the pixel's mean, luminance; 0 for fewer than 2 samples a pixel, or
-  /// runs where those are compared.
+  /// Mean over pixels of the unbiased variance of the pixel's mean, luminance, as if the samples were independent; 0
+  /// for fewer than 2 samples a pixel.
   double meanVariance() const;
   /// The same over the pixels of each colour of a checkerboard (halfOf) alone.
   std::array<double, 2> halfVariance() const;
@@ -66,7 +66,7 @@ class Film {
   };
   /// Mean over pixels of the variance of the pixel's mean over the squared luminance of a picture, which is raised by a
   /// hundredth of its mean square (black pixels); without the 0.1% that are worst. The picture is levelSum / spp. 0 for
-  /// fewer than 2 samples a pixel or a black picture.
+  /// fewer than 2 samples a pixel, or runs where those are compared, or a black picture.
   RelativeVariance relativeVariance(const Image& levelSum, double spp) const;
   /// Unbiased variance of each pixel's mean, luminance, as if the samples were independent.
   std::vector<float> pixelVariance() const;
@@ -86,8 +86,7 @@ class Film {
     double difference = 0;  ///< of those, the first, third... less the second, fourth...
   };
   static double sumOf(const Pixel& pixel) noexcept;
-  static double variance(const Pixel& pixel, double sumOfSquares) noexcept;
-  double variance(std::size_t pixel) const noexcept;
+  static double variance(const Pixel& pixel) noexcept;
   double varianceOfReplicates(std::size_t pixel) const noexcept;
 
   int m_width, m_height;

@@ -150,13 +150,14 @@ void RenderRun::renderIteration(const guiding::IterationPlan& plan) {
   closeIteration(plan, guides(plan));
 }
 
-/// The samples of an iteration begin where as many of Sobol's points are well stratified together. One of unknown
-/// length has about as many as all before it.
+/// The samples of all iterations are one sequence, so that all of the picture's are stratified together. Its first
+/// index is as large as the first iteration: then iterations that double begin where as many points are stratified
+/// well.
 void RenderRun::numberSamples(const guiding::IterationPlan& plan) {
+  m_firstSample += m_sppOfIteration;
+  if (m_iterations.empty() && !plan.isFinal) m_firstSample = plan.spp;
   const std::int64_t expected = plan.spp == guiding::TrainingSchedule::kUntilTimeIsOver ? m_sppDone : plan.spp;
   const auto block = std::int64_t(std::bit_ceil(std::uint64_t(std::max<std::int64_t>(expected, 1))));
-  const std::int64_t end = m_firstSample + m_sppOfIteration;
-  m_firstSample = (end + block - 1) / block * block;
   m_replicateSpp = m_film.comparesReplicates() ? std::max<std::int64_t>(1, block / 2) : plan.spp;
 }
 

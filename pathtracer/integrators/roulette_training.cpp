@@ -20,9 +20,10 @@ constexpr std::size_t kMostTrials = std::size(kTrials);
 /// Samples that tell all that matters.
 constexpr std::uint64_t kEnoughSamples = 1 << 22;
 constexpr int kSmoothing = 1;
-/// What the trial demands of the learned one's variance times cost beside the classic one's: few samples say it, and
-/// look-ups and what branches cost more than a path's own vertices are not counted.
-constexpr double kMostInefficiency = 0.85;
+/// What the trial demands of the learned one's variance times cost beside the classic one's: few samples say it, what
+/// they would gain from stratification is unknown (more, where paths are played alike), and look-ups and what branches
+/// cost more than a path's own vertices are not counted.
+constexpr double kMostInefficiency = 0.8;
 
 guiding::ReflectionStatistics createStatistics(const Box3& bounds) {
   auto statistics = guiding::ReflectionStatistics::create(bounds);

@@ -37,8 +37,8 @@ struct ScheduleSettings {
 
   static ScheduleSettings mueller2017() { return {}; }
   static ScheduleSettings production2019() { return {1, SampleCombination::InverseVariance, 4, 1}; }
-  static ScheduleSettings recommended() { return {1, SampleCombination::InverseVariance, 4, 1, 0.1f, 1}; }
-  static ScheduleSettings boundProduct() { return {1, SampleCombination::InverseVariance, 4, 0.25f, 0.1f}; }
+  static ScheduleSettings recommended() { return {1, SampleCombination::InverseVariance, 6, 1, 0.1f, 1}; }
+  static ScheduleSettings boundProduct() { return {1, SampleCombination::InverseVariance, 6, 0.25f, 0.1f}; }
   Status validate() const;
 };
 
@@ -56,8 +56,10 @@ struct IterationPlan {
 /// What an iteration came to, as the renderer measured it.
 struct IterationOutcome {
   std::int64_t spp = 0;  ///< samples per pixel rendered
-  double variance =
-      0;  ///< mean over pixels of the unbiased variance of the iteration's pixel means, luminance; 0 if unknown
+  /// Mean over pixels of the unbiased variance of the iteration's pixel means, luminance; 0 if unknown. As if samples
+  /// were independent, even if those of a pixel are stratified: then samples weigh alike where a guide changes nothing,
+  /// and those of all iterations stay stratified together.
+  double variance = 0;
   double seconds = 0;         ///< wall-clock, training included
   double tracingSeconds = 0;  ///< wall-clock, without learning and freezing
   /// Mean over pixels of variance over squared level, where the level is that of all samples so far, made robust
@@ -67,7 +69,7 @@ struct IterationOutcome {
   /// without the guide are too rare to show.
   double unguidedRelativeVariance = 0;
   /// `relativeVariance` over what it would be if the samples of a pixel were independent: below 1 where they are
-  /// stratified. The variances of stratified samples are those between runs of them, not from sample to sample;
+  /// stratified. relativeVariance of stratified samples is that between runs of them, not from sample to sample;
   /// unguidedRelativeVariance, which is told sample by sample, is that of independent ones.
   double stratification = 1;
   /// `variance` over the pixels of each half of the picture alone; 0 if unknown. See imageWeights(half).

@@ -43,8 +43,8 @@ TEST_CASE("learned roulette agrees with classic on the plates", "[slow]") {
   checkAgreement(bundledScene("veach-plates"));
 }
 
-TEST_CASE("learned roulette agrees with classic behind the door", "[slow]") {
-  checkAgreement(doorWithLargeLamp());
+TEST_CASE("learned roulette agrees with classic through the doorway", "[slow]") {
+  checkAgreement(doorwayWithLargeLamp());
 }
 
 TEST_CASE("a method that pays stands its trial", "[slow]") {

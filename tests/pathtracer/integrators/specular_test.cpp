@@ -63,5 +63,8 @@ TEST_CASE("refraction that the guide chose counts like the BSDF's own in roulett
   // not count with eta^2 = 4, they would survive a quarter as often, and 2.2 rays a path would be left.
   CHECK(raysPerPath(guided) > 2.5);
   CHECK(raysPerPath(guided) < raysPerPath(unguided));
-  CHECK(meanLuminance(guided.image) == Approx(meanLuminance(unguided.image)).epsilon(0.05));
+  // A tenth of the samples must find what the guide does not: single pictures may be half as bright, or twice.
+  const ZResult agrees = zTest(meanOfRuns(scene, settings, 32), meanLuminance(unguided.image), 0.001);
+  INFO(agrees.message);
+  CHECK(agrees);
 }

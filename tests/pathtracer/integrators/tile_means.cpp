@@ -22,8 +22,9 @@ pt::SceneDescription bundledScene(const std::string& name) {
   return scene;
 }
 
-pt::SceneDescription doorWithLargeLamp() {
+pt::SceneDescription doorwayWithLargeLamp() {
   pt::SceneDescription scene = bundledScene("door-ajar");
+  std::erase_if(scene.shapes, [](const pt::ShapeDescription& s) { return s.name == "door" || s.name == "knob"; });
   for (pt::ShapeDescription& shape : scene.shapes)
     if (shape.emission) {
       shape.toWorld = pt::Matrix4().setScale(pt::Vec3(2, 2, 1)) * shape.toWorld;

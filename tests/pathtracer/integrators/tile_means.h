@@ -17,9 +17,10 @@ pt::RenderSettings tileSettings(const pt::SceneDescription& scene);
 /// A bundled scene at the size of tileSettings().
 pt::SceneDescription bundledScene(const std::string& name);
 
-/// door-ajar with its lamp at twice its width and height: without light sampling, paths that find the small one by
-/// chance are so rare and bright that the mean of some dozen short runs is no normal variable.
-pt::SceneDescription doorWithLargeLamp();
+/// door-ajar without its door, and with its lamp at twice its width and height: without light sampling, paths that find
+/// the small one past the door by chance are so rare and bright that the mean of some dozen short runs is no normal
+/// variable.
+pt::SceneDescription doorwayWithLargeLamp();
 
 /// A tenth more light.
 pt::SceneDescription brighter(pt::SceneDescription scene);
