@@ -63,6 +63,7 @@ class RenderRun {
   std::optional<guiding::TrainingSchedule> m_schedule;  ///< none: the whole budget is one iteration
   std::vector<IterationReport> m_iterations;
 
+  const std::int64_t m_sppOfPass;     ///< of a pass that nothing cuts short
   std::int64_t m_sppDone = 0;         ///< over all iterations
   std::int64_t m_sppOfIteration = 0;  ///< in the current one
   std::int64_t m_firstSample = 0;     ///< number of the current iteration's first sample in every pixel
@@ -82,7 +83,8 @@ RenderRun::RenderRun(const Scene& scene, const RenderSettings& settings, const R
       m_hooks(hooks),
       m_passes(scene, settings),
       m_film(settings.width, settings.height, settings.direct && usesOptimalWeights(settings.direct->estimator)),
-      m_images(settings.aovs.variance) {
+      m_images(settings.aovs.variance),
+      m_sppOfPass(std::max<std::int64_t>(1, kPathsPerPass / (std::int64_t(settings.width) * settings.height))) {
   const AovSelection& aovs = settings.aovs;
   if (aovs.albedo || aovs.normal || aovs.depth) m_aovs.emplace(settings.width, settings.height, aovs);
   if (!scene.features().hasSmoothMaterials) return;
@@ -159,14 +161,14 @@ void RenderRun::numberSamples(const guiding::IterationPlan& plan) {
   const std::int64_t expected = plan.spp == guiding::TrainingSchedule::kUntilTimeIsOver ? m_sppDone : plan.spp;
   const auto block = std::int64_t(std::bit_ceil(std::uint64_t(std::max<std::int64_t>(expected, 1))));
   m_replicateSpp = m_film.comparesReplicates() ? std::max<std::int64_t>(1, block / 2) : plan.spp;
+  if (plan.isFinal) m_replicateSpp = (m_replicateSpp + m_sppOfPass - 1) / m_sppOfPass * m_sppOfPass;  // whole passes
 }
 
 std::int64_t RenderRun::sppOfNextPass(const guiding::IterationPlan& plan) {
-  const std::int64_t pixels = std::int64_t(m_settings.width) * m_settings.height;
   std::int64_t left = plan.spp - m_sppOfIteration;
   if (m_roulette) left = m_roulette->planSamples(left, plan.isFinal);
   left = std::min(left, m_replicateSpp - m_sppOfIteration % m_replicateSpp);
-  return std::min(left, std::max<std::int64_t>(1, kPathsPerPass / pixels));
+  return std::min(left, m_sppOfPass);
 }
 
 void RenderRun::endPass(std::int64_t spp) {
