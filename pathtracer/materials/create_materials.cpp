@@ -28,7 +28,27 @@ class MaterialBuilder {
     const MaterialDescription& material = m_description.materials[index];
     m_isBegun[index] = true;
     const Parameters parameters(material.source, m_textures);
+    m_inside.emplace_back();
     m_materials[index] = std::visit([&](const auto& kind) { return make(kind, parameters); }, material.kind);
+    m_materials[index]->setAbsorption(absorption(material, *m_materials[index], parameters));
+    m_inside.pop_back();
+  }
+
+  /// Of the medium behind a surface; one without its own has that of the materials inside it.
+  Spectrum absorption(const MaterialDescription& material, const Material& made, const Parameters& parameters) const {
+    Spectrum found = parameters.nonNegative(material.absorption, "absorption coefficient");
+    if (!isBlack(found)) {
+      if (!made.traits().transmits)
+        parameters.fail("a medium is of no use behind a surface that lets no light through");
+      return found;
+    }
+    for (const Material* inside : m_inside.back()) {
+      if (isBlack(inside->absorption())) continue;
+      if (!isBlack(found) && found != inside->absorption())
+        parameters.fail("two materials of different absorption cannot be blended; give both the same");
+      found = inside->absorption();
+    }
+    return found;
   }
 
   Result make(const DiffuseMaterial& m, const Parameters& p) { return makeDiffuse(m, p); }
@@ -58,6 +78,7 @@ class MaterialBuilder {
       if (m_isBegun[i]) user.fail("materials contain each other in a circle");
       make(i);
     }
+    m_inside.back().push_back(m_materials[i].get());
     return *m_materials[i];
   }
 
@@ -82,6 +103,7 @@ class MaterialBuilder {
   RoughTransmittanceCache m_cache;
   std::vector<std::unique_ptr<Material>> m_materials;
   std::vector<bool> m_isBegun;
+  std::vector<std::vector<const Material*>> m_inside;  ///< of each material that is being made, the innermost last
 };
 
 }  // namespace

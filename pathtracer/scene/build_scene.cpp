@@ -52,7 +52,6 @@ class SceneBuilder {
     m_data.origin = chooseOrigin(m_description);
     m_data.textures = TextureSet(m_description);
     m_data.materials = createMaterials(m_description, m_data.textures);
-    fillMedia();
     addShapes();
     addInstances();
     buildAccel();
@@ -72,17 +71,6 @@ class SceneBuilder {
       used.push_back(&m_description.groups[std::size_t(instance->group)]);
     }
     return used;
-  }
-
-  void fillMedia() {
-    for (std::size_t i = 0; i < m_data.materials.size(); ++i) {
-      const MaterialDescription& material = m_description.materials[i];
-      if (!isEmission(material.absorption))
-        throw InputError(material.source + ": an absorption coefficient must be finite and not negative");
-      if (!isBlack(material.absorption) && !m_data.materials[i]->traits().transmits)
-        throw InputError(material.source + ": a medium is of no use behind a surface that lets no light through");
-      m_data.materials[i]->setAbsorption(material.absorption);
-    }
   }
 
   void addShapes() {

@@ -174,7 +174,7 @@ struct MaterialDescription {
       kind;
   SourceLocation source;
   /// Of the medium behind a surface that lets light through, per unit of length and channel: exp(-absorption * way) of
-  /// the light is left. 0: clear.
+  /// the light is left. 0: clear, or as the materials inside have it.
   Spectrum absorption{0.0f};
 };
 

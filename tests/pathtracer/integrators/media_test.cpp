@@ -110,6 +110,35 @@ TEST_CASE("a clear body displaces the medium around it; bodies may overlap", "[i
   }
 }
 
+TEST_CASE("a surface of several materials has the medium of those inside", "[integrators]") {
+  const pt::Spectrum sigma(0.1f, 0.5f, 0.9f);
+  pt::SceneDescription description = viewFromAbove();
+  description.lights.push_back({pt::ConstantEnvironment{pt::Spectrum(1.0f)}, "test"});
+  description.textures.push_back(
+      {pt::CheckerboardTexture{{0.5f, 0.5f, 1}, {0.5f, 0.5f, 1}}, pt::Matrix3(), "flat normals"});
+  const int glass = addMedium(description, 1, sigma), clear = addMedium(description, 1, pt::Spectrum(0.0f));
+  const int other = addMedium(description, 1, sigma * 2.0f);
+  const int outer = int(description.materials.size());
+  description.materials.push_back({});
+  addSphere(description, 2, outer);
+  const auto seenThrough = [&](decltype(pt::MaterialDescription::kind) kind,
+                               const pt::Spectrum& own = pt::Spectrum(0.0f)) {
+    description.materials[std::size_t(outer)] = {"outer", std::move(kind), "test", own};
+    return meanOf(description);
+  };
+  const pt::Spectrum seen[] = {seenThrough(pt::BumpMaterial{glass, 0}),
+                               seenThrough(pt::NormalMapMaterial{glass, 0}),
+                               seenThrough(pt::MaskMaterial{glass, 0.5f}),
+                               seenThrough(pt::BlendMaterial{glass, clear, 0.5f}),
+                               seenThrough(pt::BlendMaterial{clear, glass, 0.5f}),
+                               seenThrough(pt::BlendMaterial{glass, glass, 0.5f}),
+                               seenThrough(pt::MaskMaterial{other, 0.5f}, sigma),
+                               seenThrough(pt::BlendMaterial{glass, other, 0.5f}, sigma)};
+  for (const pt::Spectrum& light : seen)
+    for (int c = 0; c < 3; ++c) CHECK(light[c] == Approx(std::exp(-sigma[c] * 4)).epsilon(1e-4));
+  CHECK_THROWS_WITH(seenThrough(pt::BlendMaterial{glass, other, 0.5f}), Contains("test: ") && Contains("absorption"));
+}
+
 TEST_CASE("in a medium, guided and unguided renders agree", "[integrators]") {
   pt::SceneDescription description = floor();
   addSquareLight(description, 2, 0.5f, 10);
@@ -157,5 +186,5 @@ TEST_CASE("a medium needs a surface that lets light through", "[integrators]") {
   CHECK_THROWS_WITH(pt::Scene(description), Contains("test: a medium is of no use"));
   addSphere(description, 1, addMedium(description, 1.5f, pt::Spectrum(-1.0f)));
   description.materials[0].absorption = pt::Spectrum(0.0f);
-  CHECK_THROWS_WITH(pt::Scene(description), Contains("absorption coefficient must be finite"));
+  CHECK_THROWS_WITH(pt::Scene(description), Contains("absorption coefficient (-1, -1, -1) must be finite"));
 }
