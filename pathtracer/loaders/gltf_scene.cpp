@@ -22,7 +22,7 @@ class SceneReader {
   SceneDescription read() {
     m_surfaces = readMaterials(m_context);
     m_geometry = readGeometry(m_context.document, readUvSets(m_context.document));
-    for (const json::Node& root : sceneNodes()) readNode(root, Transform());
+    readNodes();
     addMeshes();
     noteWhatIsLeftOut();
     return std::move(m_context.scene);
@@ -46,18 +46,37 @@ class SceneReader {
     return nodes ? nodes->elements() : std::vector<json::Node>();
   }
 
-  void readNode(const json::Node& index, const Transform& parentToWorld) {
-    json::ObjectReader node(elementOf(m_context.document, "nodes", index));
+  /// A reference to a node, and the space that it stands in.
+  struct Child {
+    json::Node index;
+    Transform parentToWorld;
+  };
+
+  /// Each before its children. Without recursion: files may nest nodes as deep as they like.
+  void readNodes() {
+    std::vector<Child> open;  // the next one last
+    const auto add = [&](const std::vector<json::Node>& nodes, const Transform& parentToWorld) {
+      for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) open.push_back({*node, parentToWorld});
+    };
+    add(sceneNodes(), Transform());
+    while (!open.empty()) {
+      const Child child = std::move(open.back());
+      open.pop_back();
+      json::ObjectReader node(elementOf(m_context.document, "nodes", child.index));
+      const Transform toWorld = readNodeTransform(node) * child.parentToWorld;
+      readNode(child.index, node, toWorld);
+      if (const auto children = node.find("children")) add(children->elements(), toWorld);
+    }
+  }
+
+  void readNode(const json::Node& index, json::ObjectReader& node, const Transform& toWorld) {
     if (!m_visited.insert(index.integer(0)).second) index.fail("the node has a parent already; nodes must form a tree");
-    const Transform toWorld = readNodeTransform(node) * parentToWorld;
     if (const auto mesh = node.find("mesh")) placeMesh(*mesh, toWorld, node.string("name", ""));
     if (const auto camera = node.find("camera")) placeCamera(*camera, toWorld);
     if (const auto extensions = node.find("extensions"))
       if (const auto light = json::ObjectReader(*extensions).find("KHR_lights_punctual"))
         readLight(m_context, json::ObjectReader(*light).require("light"), toWorld);
     if (node.find("skin")) m_skinned = true;
-    if (const auto children = node.find("children"))
-      for (const json::Node& child : children->elements()) readNode(child, toWorld);
   }
 
   void placeMesh(const json::Node& index, const Transform& toWorld, const std::string& name) {

@@ -6,6 +6,7 @@
 #include "loaders/json_parts.h"
 #include "loaders/refraction_index.h"
 #include "materials/conductor_presets.h"
+#include "materials/material_parts.h"
 
 namespace pt::json {
 namespace {
@@ -182,6 +183,8 @@ const std::map<std::string, std::function<Kind(Context&, ObjectReader&)>> kReade
 };
 
 int readMaterialObject(Context& context, const Node& node, const std::string& name) {
+  if (++context.openMaterials > kMostMaterialParts)
+    node.fail(fmt::format("materials are nested deeper than {} here", kMostMaterialParts));
   ObjectReader reader(node);
   const Node type = reader.require("type");
   const auto found = kReaders.find(type.string());
@@ -191,6 +194,7 @@ int readMaterialObject(Context& context, const Node& node, const std::string& na
   if (std::holds_alternative<DielectricMaterial>(material.kind))
     material.absorption = reader.color("absorption", material.absorption);
   reader.finish();
+  --context.openMaterials;
   context.scene.materials.push_back(std::move(material));
   return static_cast<int>(context.scene.materials.size()) - 1;
 }

@@ -16,6 +16,7 @@ struct Context {
   SceneDescription scene;
   std::map<std::string, Node> textureNodes, materialNodes, groupNodes;  ///< by name
   std::map<std::string, int> materials, groups;                         ///< read already; kNone while being read
+  int openMaterials = 0;                                                ///< that are being read, one inside the other
 };
 
 /// A colour, or {"texture": name or object, "scale": colour}.

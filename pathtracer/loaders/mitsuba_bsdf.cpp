@@ -6,6 +6,7 @@
 #include "loaders/mitsuba_parts.h"
 #include "loaders/refraction_index.h"
 #include "materials/conductor_presets.h"
+#include "materials/material_parts.h"
 
 namespace pt::mitsuba {
 namespace {
@@ -274,6 +275,8 @@ int readBsdf(Context& context, const Object& object) {
     if (known->second == kNone) failAt(object.source, fmt::format("bsdf '{}' contains itself", object.type));
     return known->second;
   }
+  if (++context.openMaterials > kMostMaterialParts)
+    failAt(object.source, fmt::format("bsdfs are nested deeper than {} here", kMostMaterialParts));
   int index = kNone;
   try {
     Kind kind = readKind(context, object);
@@ -282,6 +285,7 @@ int readBsdf(Context& context, const Object& object) {
   } catch (const UnsupportedError& error) {
     index = readStandIn(context, object, error);
   }
+  --context.openMaterials;
   return known->second = index;
 }
 

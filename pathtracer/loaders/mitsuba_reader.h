@@ -23,6 +23,7 @@ struct Context {
   std::map<const Object*, int> materials;               ///< read already; kNone while being read
   std::map<const Object*, SpectrumParameter> textures;  ///< read already; without texture while being read
   std::map<const Object*, int> groups;
+  int openMaterials = 0;  ///< that are being read, one inside the other
 
   /// Mitsuba 0.x, whose defaults differ here and there.
   bool isOld() const { return version < 2; }

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "materials/make_material.h"
+#include "materials/material_parts.h"
 
 namespace pt {
 
@@ -13,6 +15,7 @@ class MaterialBuilder {
       : m_description(description),
         m_textures(textures),
         m_materials(description.materials.size()),
+        m_parts(description.materials.size(), 1),
         m_isBegun(description.materials.size()) {}
 
   std::vector<std::unique_ptr<Material>> build() {
@@ -24,14 +27,21 @@ class MaterialBuilder {
  private:
   using Result = std::unique_ptr<Material>;
 
+  /// A material that is being made.
+  struct Open {
+    std::size_t index;
+    std::vector<const Material*> inside;
+  };
+
   void make(std::size_t index) {
     const MaterialDescription& material = m_description.materials[index];
     m_isBegun[index] = true;
     const Parameters parameters(material.source, m_textures);
-    m_inside.emplace_back();
+    m_open.push_back({index, {}});
+    if (int(m_open.size()) > kMostMaterialParts) failOfParts(m_open.front().index);
     m_materials[index] = std::visit([&](const auto& kind) { return make(kind, parameters); }, material.kind);
     m_materials[index]->setAbsorption(absorption(material, *m_materials[index], parameters));
-    m_inside.pop_back();
+    m_open.pop_back();
   }
 
   /// Of the medium behind a surface; one without its own has that of the materials inside it.
@@ -42,7 +52,7 @@ class MaterialBuilder {
         parameters.fail("a medium is of no use behind a surface that lets no light through");
       return found;
     }
-    for (const Material* inside : m_inside.back()) {
+    for (const Material* inside : m_open.back().inside) {
       if (isBlack(inside->absorption())) continue;
       if (!isBlack(found) && found != inside->absorption())
         parameters.fail("two materials of different absorption cannot be blended; give both the same");
@@ -78,18 +88,28 @@ class MaterialBuilder {
       if (m_isBegun[i]) user.fail("materials contain each other in a circle");
       make(i);
     }
-    m_inside.back().push_back(m_materials[i].get());
+    Open& outer = m_open.back();
+    outer.inside.push_back(m_materials[i].get());
+    m_parts[outer.index] += m_parts[i];
+    if (m_parts[outer.index] > kMostMaterialParts) failOfParts(outer.index);
     return *m_materials[i];
+  }
+
+  [[noreturn]] void failOfParts(std::size_t index) const {
+    const MaterialDescription& material = m_description.materials[index];
+    throw InputError(
+        fmt::format("{}: the material \"{}\" consists of more than {} materials, one inside the other; use fewer",
+                    material.source, material.name, kMostMaterialParts));
   }
 
   /// The one-sided material that a side of a two-sided one names. A two-sided material as a side shows its own front.
   int resolveSide(int side, const Parameters& user) const {
-    for (std::size_t step = 0; step <= m_materials.size(); ++step) {
+    for (int step = 0; step < kMostMaterialParts; ++step) {
       const auto* twoSided = std::get_if<TwoSidedMaterial>(&m_description.materials[checked(side, user)].kind);
       if (!twoSided) return side;
       side = twoSided->front;
     }
-    user.fail("two-sided materials name each other in a circle");
+    user.fail("two-sided materials name each other in a circle, or too many times");
   }
 
   std::size_t checked(int index, const Parameters& user) const {
@@ -102,8 +122,9 @@ class MaterialBuilder {
   const TextureSet& m_textures;
   RoughTransmittanceCache m_cache;
   std::vector<std::unique_ptr<Material>> m_materials;
+  std::vector<int> m_parts;  ///< of those that are made, themselves included; one that is used twice counts twice
   std::vector<bool> m_isBegun;
-  std::vector<std::vector<const Material*>> m_inside;  ///< of each material that is being made, the innermost last
+  std::vector<Open> m_open;  ///< the innermost last
 };
 
 }  // namespace

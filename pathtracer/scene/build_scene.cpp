@@ -52,6 +52,7 @@ class SceneBuilder {
     m_data.origin = chooseOrigin(m_description);
     m_data.textures = TextureSet(m_description);
     m_data.materials = createMaterials(m_description, m_data.textures);
+    m_texturedMaterials = findTextured(m_description);
     addShapes();
     addInstances();
     buildAccel();
@@ -96,8 +97,8 @@ class SceneBuilder {
     parallelFor(shapes.size(), [&](std::size_t i) {
       try {
         const bool inWorld = i < m_description.shapes.size();  // groups have a space of their own
-        baked[i] =
-            bakeShape(*shapes[i], needsUvs(m_description, *shapes[i]), inWorld ? m_data.origin : Imath::V3d(0, 0, 0));
+        baked[i] = bakeShape(*shapes[i], needsUvs(m_texturedMaterials, *shapes[i]),
+                             inWorld ? m_data.origin : Imath::V3d(0, 0, 0));
       } catch (...) {
         faults[i] = std::current_exception();
       }
@@ -120,7 +121,7 @@ class SceneBuilder {
     else
       return;
     if (shape.material != kNone) surface.material = m_data.materials[std::size_t(shape.material)].get();
-    surface.needsUvs = needsUvs(m_description, shape);
+    surface.needsUvs = needsUvs(m_texturedMaterials, shape);
     surface.needsTangents = surface.material && surface.material->traits().needsTangents;
     surface.id = m_nextId++;
     if (shape.emission) addAreaLight(radianceOf(shape), surface);
@@ -285,6 +286,7 @@ class SceneBuilder {
 
   const SceneDescription& m_description;
   SceneData m_data;
+  std::vector<bool> m_texturedMaterials;
   std::vector<std::size_t> m_groupNumber;
   std::vector<Box3> m_groupBounds;
   std::uint32_t m_nextId = 0;

@@ -14,48 +14,59 @@ bool textured(const std::optional<Roughness>& roughness) {
   return roughness && (textured(roughness->alpha) || roughness->alphaV);
 }
 
-/// Asks each kind of material; nested ones are asked through the description.
-struct TextureUse {
-  const SceneDescription& description;
+/// Asks each kind of material, and each material once: others may contain it at many places.
+class TextureUse {
+ public:
+  explicit TextureUse(const SceneDescription& description)
+      : m_description(description), m_known(description.materials.size()) {}
 
-  bool operator()(const DiffuseMaterial& m) const { return textured(m.reflectance); }
-  bool operator()(const RoughDiffuseMaterial& m) const { return textured(m.reflectance) || textured(m.alpha); }
-  bool operator()(const ConductorMaterial& m) const { return textured(m.specularReflectance) || textured(m.roughness); }
-  bool operator()(const DielectricMaterial& m) const {
+  bool operator()(int material) {
+    std::optional<bool>& known = m_known[std::size_t(material)];
+    if (!known) known = std::visit(*this, m_description.materials[std::size_t(material)].kind);
+    return *known;
+  }
+
+  bool operator()(const DiffuseMaterial& m) { return textured(m.reflectance); }
+  bool operator()(const RoughDiffuseMaterial& m) { return textured(m.reflectance) || textured(m.alpha); }
+  bool operator()(const ConductorMaterial& m) { return textured(m.specularReflectance) || textured(m.roughness); }
+  bool operator()(const DielectricMaterial& m) {
     return textured(m.specularReflectance) || textured(m.specularTransmittance) || textured(m.roughness);
   }
-  bool operator()(const ThinDielectricMaterial& m) const {
+  bool operator()(const ThinDielectricMaterial& m) {
     return textured(m.specularReflectance) || textured(m.specularTransmittance);
   }
-  bool operator()(const PlasticMaterial& m) const {
+  bool operator()(const PlasticMaterial& m) {
     return textured(m.diffuseReflectance) || textured(m.specularReflectance) || textured(m.roughness);
   }
-  bool operator()(const TwoSidedMaterial& m) const {
-    return usesTexture(description, m.front) || usesTexture(description, m.back);
-  }
-  bool operator()(const NullMaterial&) const { return false; }
-  bool operator()(const BlendMaterial& m) const {
-    return textured(m.weight) || usesTexture(description, m.first) || usesTexture(description, m.second);
-  }
-  bool operator()(const BumpMaterial&) const { return true; }
-  bool operator()(const NormalMapMaterial&) const { return true; }
-  bool operator()(const PrincipledMaterial& m) const {
+  bool operator()(const TwoSidedMaterial& m) { return (*this)(m.front) || (*this)(m.back); }
+  bool operator()(const NullMaterial&) { return false; }
+  bool operator()(const BlendMaterial& m) { return textured(m.weight) || (*this)(m.first) || (*this)(m.second); }
+  bool operator()(const BumpMaterial&) { return true; }
+  bool operator()(const NormalMapMaterial&) { return true; }
+  bool operator()(const PrincipledMaterial& m) {
     return m.anisotropy != 0 || textured(m.baseColor) || textured(m.metallic) || textured(m.roughness) ||
            textured(m.specular) || textured(m.transmission) || textured(m.sheen) || textured(m.clearcoat) ||
            textured(m.clearcoatRoughness);
   }
-  bool operator()(const MaskMaterial& m) const { return textured(m.opacity) || usesTexture(description, m.material); }
+  bool operator()(const MaskMaterial& m) { return textured(m.opacity) || (*this)(m.material); }
+
+ private:
+  const SceneDescription& m_description;
+  std::vector<std::optional<bool>> m_known;
 };
 
 }  // namespace
 
-bool usesTexture(const SceneDescription& description, int material) {
-  if (material == kNone) return false;
-  return std::visit(TextureUse{description}, description.materials[std::size_t(material)].kind);
+std::vector<bool> findTextured(const SceneDescription& description) {
+  TextureUse usesTexture(description);
+  std::vector<bool> found;
+  for (int i = 0; i < int(description.materials.size()); ++i) found.push_back(usesTexture(i));
+  return found;
 }
 
-bool needsUvs(const SceneDescription& description, const ShapeDescription& shape) {
-  return usesTexture(description, shape.material) || (shape.emission && textured(*shape.emission));
+bool needsUvs(const std::vector<bool>& texturedMaterials, const ShapeDescription& shape) {
+  const bool byMaterial = shape.material != kNone && texturedMaterials[std::size_t(shape.material)];
+  return byMaterial || (shape.emission && textured(*shape.emission));
 }
 
 }  // namespace pt

@@ -1,4 +1,6 @@
 // glTF 2.0 files, written here as text.
+#include <fmt/format.h>
+
 #include <cstring>
 
 #include "loader_fixture.h"
@@ -181,6 +183,15 @@ TEST_CASE("glTF: nodes put meshes where they say; a mesh in several places is in
   CHECK(mirrored.shapes.at(0).flipNormals);
   CHECK(errorOf(R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "children": [0]}])") ==
         "a.gltf#/nodes/0/children/0: the node has a parent already; nodes must form a tree");
+}
+
+TEST_CASE("glTF: nodes may be nested as deep as a rope has links") {
+  std::string nodes;
+  for (int i = 1; i < 20000; ++i) nodes += fmt::format(R"({{"translation": [1, 0, 0], "children": [{}]}}, )", i);
+  const SceneDescription scene =
+      load(R"("scenes": [{"nodes": [0]}], "nodes": [)" + nodes + R"({"mesh": 0, "name": "last"}])");
+  REQUIRE(scene.shapes.size() == 1);
+  CHECK(apply(scene.shapes[0].toWorld, Vec3(0, 0, 0)).x == 19999);
 }
 
 TEST_CASE("glTF: cameras look down -z, and shape the picture") {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "loader_fixture.h"
 
 using namespace pt;
@@ -27,6 +29,17 @@ TEST_CASE("JSON: syntax errors have line and column") {
   CHECK(errorOf("{\"film\":\n {\"width\": 1e999}}") == "s.json:2:12: the number 1e999 is too large");
   CHECK(errorOf("{\"film\": NaN}").starts_with("s.json:1:10: malformed JSON: "));
   CHECK(errorOf("{\"a\xff\": 1}").find("malformed JSON") != std::string::npos);
+}
+
+TEST_CASE("JSON: materials that name each other are nested only so deep") {
+  const auto chain = [](int length) {
+    std::string materials;
+    for (int i = 0; i < length; ++i)
+      materials += fmt::format(R"("m{}": {{"type": "mask", "material": "m{}"}}, )", i, i + 1);
+    return fmt::format(R"({{"materials": {{{}"m{}": {{"type": "diffuse"}}}}}})", materials, length);
+  };
+  CHECK(errorOf(chain(255)).empty());
+  CHECK(errorOf(chain(10000)) == "s.json#/materials/m256: materials are nested deeper than 256 here");
 }
 
 TEST_CASE("JSON: nesting bombs and doubled keys are refused") {

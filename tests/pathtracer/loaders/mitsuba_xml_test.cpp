@@ -1,4 +1,6 @@
 // Variables, includes, search paths and references: what happens to a file before plugins are read.
+#include <fmt/format.h>
+
 #include "loader_fixture.h"
 
 using namespace pt;
@@ -111,6 +113,18 @@ TEST_CASE("references that cannot work") {
         "a.xml:2: bsdf 'twosided' contains itself");
   CHECK(folder.errorOf("a.xml", mitsubaScene("<shape type=\"sphere\"><ref/></shape>")) ==
         "a.xml:2: <ref> lacks the attribute 'id'");
+}
+
+TEST_CASE("materials that refer to each other are nested only so deep") {
+  SceneFolder folder;
+  const auto chain = [](int length) {
+    std::string bsdfs = "<bsdf type=\"diffuse\" id=\"m0\"/>\n";
+    for (int i = 0; i < length; ++i)
+      bsdfs += fmt::format("<bsdf type=\"mask\" id=\"m{}\"><ref id=\"m{}\"/></bsdf>\n", i + 1, i);
+    return mitsubaScene(fmt::format("{}<shape type=\"sphere\"><ref id=\"m{}\"/></shape>", bsdfs, length));
+  };
+  CHECK(folder.errorOf("a.xml", chain(255)).empty());
+  CHECK(folder.errorOf("a.xml", chain(10000)) == "a.xml:9746: bsdfs are nested deeper than 256 here");
 }
 
 TEST_CASE("malformed XML is told with its line") {

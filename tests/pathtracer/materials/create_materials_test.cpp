@@ -156,3 +156,28 @@ TEST_CASE("Impossible two-sided materials are input errors") {
   fails({{"t", TwoSidedMaterial{0, 7}, "a"}}, "circle");
   fails({{"t", TwoSidedMaterial{1, 1}, "a"}, {"u", TwoSidedMaterial{0, 0}, "b"}}, "circle");
 }
+
+TEST_CASE("Materials of too many others are input errors that name them") {
+  const auto fails = [](const std::vector<MaterialDescription>& materials, const char* name) {
+    SceneDescription description;
+    description.materials = materials;
+    CHECK_THROWS_WITH(createMaterials(description, TextureSet()),
+                      Catch::Contains("b: the material \"" + std::string(name) + "\" consists of more than 256"));
+  };
+  constexpr int kMany = 10000;
+  std::vector<MaterialDescription> inwards, outwards = {{"white", DiffuseMaterial{1.0f}, "a"}};
+  for (int i = 0; i < kMany; ++i) {
+    inwards.push_back({std::to_string(i), MaskMaterial{i + 1, 0.5f}, "b"});
+    outwards.push_back({std::to_string(i + 1), MaskMaterial{i, 0.5f}, "b"});
+  }
+  inwards.push_back(outwards[0]);
+  fails(inwards, "0");
+  fails(outwards, "256");
+
+  std::vector<MaterialDescription> doubled = {{"white", DiffuseMaterial{1.0f}, "a"}};
+  for (int i = 0; i < 40; ++i) doubled.push_back({std::to_string(i + 1), BlendMaterial{i, i, 0.5f}, "b"});
+  fails(doubled, "8");  // of 2^9 - 1
+  SceneDescription description;
+  description.materials = {doubled.begin(), doubled.begin() + 8};
+  CHECK(createMaterials(description, TextureSet()).size() == 8);
+}
