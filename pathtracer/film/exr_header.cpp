@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 #include <iterator>
 #include <string_view>
 
@@ -15,7 +14,7 @@ namespace {
 /// Reads little-endian numbers and names that end with a zero.
 class HeaderReader {
  public:
-  explicit HeaderReader(const std::filesystem::path& file) : m_stream(file, std::ios::binary) {}
+  explicit HeaderReader(std::istream& stream) : m_stream(stream) {}
 
   std::uint32_t number() {
     unsigned char bytes[4] = {};
@@ -38,7 +37,7 @@ class HeaderReader {
   explicit operator bool() const { return bool(m_stream); }
 
  private:
-  std::ifstream m_stream;
+  std::istream& m_stream;
 };
 
 /// Values of these types take so many bytes, whatever the header says [OpenEXR file layout, predefined attribute
@@ -105,13 +104,15 @@ bool passValue(HeaderReader& reader, std::string_view type, std::uint32_t bytes)
 
 }  // namespace
 
-std::optional<std::string> faultOfExrHeader(const std::filesystem::path& file) {
+std::optional<std::string> faultOfExrHeader(std::istream& file) {
   constexpr std::uint32_t kMagic = 0x01312f76, kSeveralParts = 0x1000;
+  file.clear();
+  file.seekg(0, std::ios::end);
+  const auto size = std::uintmax_t(file.tellg());
+  file.seekg(0);
   HeaderReader reader(file);
   if (reader.number() != kMagic) return std::nullopt;
   const bool hasParts = (reader.number() & kSeveralParts) != 0;
-  std::error_code ignored;
-  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
   // A header ends with an empty name, and so do the headers of a file of several parts.
   for (bool atStart = true; reader;) {
     const std::string name = reader.name();

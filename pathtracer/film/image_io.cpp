@@ -7,8 +7,7 @@
 #include "core/error.h"
 #include "core/replace_file.h"
 #include "core/srgb.h"
-#include "film/exr_header.h"
-#include "film/png_header.h"
+#include "film/picture_checks.h"
 #include "scene/scene_description.h"
 
 namespace pt {
@@ -34,42 +33,11 @@ std::array<int, 3> colourChannels(const OIIO::ImageSpec& spec) {
   return {0, 0, 0};
 }
 
-void requireSane(const fs::path& file, const OIIO::ImageSpec& spec) {
-  const bool sane = spec.width >= 1 && spec.width <= kMaxFilmSize && spec.height >= 1 && spec.height <= kMaxFilmSize &&
-                    std::int64_t(spec.width) * spec.height <= kMaxFilmPixels && spec.depth <= 1 && spec.nchannels >= 1;
-  if (!sane)
-    failToRead(file, fmt::format("{}x{}x{} pixels of {} channels are no picture of at most {} pixels", spec.width,
-                                 spec.height, spec.depth, spec.nchannels, kMaxFilmPixels));
-}
-
-/// Whether the end of the pixels can be read.
-bool hasLastPixel(OIIO::ImageInput& input) {
-  const OIIO::ImageSpec& spec = input.spec();
-  if (spec.tile_width == 0) {
-    std::vector<float> row(std::size_t(spec.width) * std::size_t(spec.nchannels));
-    return input.read_scanline(spec.y + spec.height - 1, spec.z, OIIO::TypeDesc::FLOAT, row.data());
-  }
-  std::vector<float> tile(std::size_t(spec.tile_pixels()) * std::size_t(spec.nchannels));
-  const auto firstOfLast = [](int begin, int size, int step) { return begin + (size - 1) / step * step; };
-  return input.read_tile(firstOfLast(spec.x, spec.width, spec.tile_width),
-                         firstOfLast(spec.y, spec.height, spec.tile_height), spec.z, OIIO::TypeDesc::FLOAT,
-                         tile.data());
-}
-
-/// Refuses a small file that announces a large picture and does not have it, before memory is taken for it.
-void requireWhole(const fs::path& file, OIIO::ImageInput& input) {
-  constexpr std::uintmax_t kSmall = 1 << 24;  // bytes of pixels
-  constexpr std::uintmax_t kPacking = 200;    // few pictures are packed so well; they take the longer way
-  const std::uintmax_t pixelBytes = input.spec().image_bytes(true);
-  std::error_code ignored;
-  if (pixelBytes > kSmall && pixelBytes / kPacking > fs::file_size(file, ignored) && !hasLastPixel(input))
-    failToRead(file, input.geterror());
-}
-
 Image readColours(const fs::path& file, OIIO::ImageInput& input) {
   const OIIO::ImageSpec& spec = input.spec();
-  requireSane(file, spec);
-  requireWhole(file, input);
+  if (const auto fault = faultOfPictureSize(spec, kMaxFilmPixels)) failToRead(file, *fault);
+  std::error_code ignored;
+  if (announcesMuch(spec, fs::file_size(file, ignored)) && !hasLastPixel(input)) failToRead(file, input.geterror());
   const auto rgb = colourChannels(spec);
   const auto [first, last] = std::minmax({rgb[0], rgb[1], rgb[2]});
   const auto stride = std::size_t(last - first + 1);
@@ -120,11 +88,7 @@ struct Channels {
 }  // namespace
 
 Image readImage(const fs::path& file) {
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) failToRead(file, "there is no such file");
-  if (!fs::is_regular_file(file, ignored)) failToRead(file, "it is no file but a folder, a device or a pipe");
-  if (const auto fault = faultOfExrHeader(file)) failToRead(file, *fault);
-  if (const auto fault = faultOfPngChunks(file)) failToRead(file, *fault);
+  if (const auto fault = faultOfPictureFile(file)) failToRead(file, *fault);
   const auto input = OIIO::ImageInput::open(file.string());
   if (!input) failToRead(file, OIIO::geterror());
   return readColours(file, *input);

@@ -24,7 +24,7 @@ class MemoryTexels {
 
   Value operator()(int level, int x, int y) const noexcept {
     const Level& l = m_levels[std::size_t(level)];
-    const Component* texel = &l.texels[std::size_t(y * l.width + x) * Channels];
+    const Component* texel = &l.texels[(std::size_t(y) * std::size_t(l.width) + std::size_t(x)) * Channels];
     if constexpr (Channels == 1)
       return decode(texel[0]);
     else

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/error.h"
+#include "film/picture_checks.h"
 
 namespace pt {
 
@@ -16,23 +19,42 @@ std::string nameByContent(const std::string& bytes) {
 }  // namespace
 
 PictureFile::PictureFile(const PictureKey& key) : m_key(key) {
+  if (const auto fault = key.bytes ? faultOfPictureBytes(*key.bytes) : faultOfPictureFile(key.file)) fail(*fault);
+  m_reader = open();
+  m_spec = m_reader.input->spec();
+  constexpr std::int64_t kMostOfFile = std::int64_t(kMaxFilmSize) * kMaxFilmSize;  // in tiles, if memory is short
+  if (const auto fault = faultOfPictureSize(m_spec, isFile() ? kMostOfFile : kMaxFilmPixels)) fail(*fault);
+  requireWhole();
+  chooseChannels();
+}
+
+PictureFile::Reader PictureFile::open() const {
   OIIO::ImageSpec config;
   config["oiio:UnassociatedAlpha"] = 1;  // colours as they were painted
-  if (key.bytes) {
-    m_bytes = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<char*>(key.bytes->data()), key.bytes->size());
-    void* const proxy = m_bytes.get();
+  Reader reader;
+  if (m_key.bytes) {
+    reader.bytes =
+        std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<char*>(m_key.bytes->data()), m_key.bytes->size());
+    void* const proxy = reader.bytes.get();
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
   }
-  m_input = OIIO::ImageInput::open(key.bytes ? nameByContent(*key.bytes) : key.file.string(), &config);
-  if (!m_input) {
-    std::string reason = OIIO::geterror();
-    reason.erase(std::find(reason.begin(), reason.end(), '\n'), reason.end());
-    throw InputError(fmt::format("{}: cannot be read as a picture: {}", key.file.string(), reason));
-  }
-  m_spec = m_input->spec();
-  if (m_spec.width < 1 || m_spec.height < 1 || m_spec.nchannels < 1 || m_spec.depth > 1)
-    throw InputError(key.file.string() + ": is no picture of rows and columns");
-  chooseChannels();
+  reader.input = OIIO::ImageInput::open(m_key.bytes ? nameByContent(*m_key.bytes) : m_key.file.string(), &config);
+  if (!reader.input) fail(OIIO::geterror());
+  return reader;
+}
+
+/// By a reader of its own: one that went back to the start would forget how it was opened.
+void PictureFile::requireWhole() const {
+  std::error_code ignored;
+  const std::uintmax_t size = m_key.bytes ? m_key.bytes->size() : std::filesystem::file_size(m_key.file, ignored);
+  if (!announcesMuch(m_spec, size)) return;
+  const Reader probe = open();
+  if (!hasLastPixel(*probe.input)) fail(probe.input->geterror());
+}
+
+void PictureFile::fail(std::string reason) const {
+  reason.erase(std::find(reason.begin(), reason.end(), '\n'), reason.end());
+  throw InputError(fmt::format("{}: cannot be read as a picture: {}", m_key.file.string(), reason));
 }
 
 void PictureFile::chooseChannels() {
@@ -69,8 +91,8 @@ std::size_t PictureFile::memoryBytes() const {
 }
 
 void PictureFile::readAs(OIIO::TypeDesc type, void* values) const {
-  if (!m_input->read_image(0, 0, m_firstChannel, m_firstChannel + m_channels, type, values))
-    throw InputError(fmt::format("{}: the picture is damaged: {}", m_key.file.string(), m_input->geterror()));
+  if (!m_reader.input->read_image(0, 0, m_firstChannel, m_firstChannel + m_channels, type, values))
+    throw InputError(fmt::format("{}: the picture is damaged: {}", m_key.file.string(), m_reader.input->geterror()));
 }
 
 }  // namespace pt

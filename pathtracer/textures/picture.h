@@ -54,12 +54,19 @@ class PictureFile {
   }
 
  private:
+  struct Reader {
+    std::unique_ptr<OIIO::Filesystem::IOProxy> bytes;  ///< read by `input`
+    std::unique_ptr<OIIO::ImageInput> input;
+  };
+
+  Reader open() const;
+  void requireWhole() const;
   void readAs(OIIO::TypeDesc type, void* values) const;
   void chooseChannels();
+  [[noreturn]] void fail(std::string reason) const;
 
   PictureKey m_key;
-  std::unique_ptr<OIIO::Filesystem::IOProxy> m_bytes;  ///< read by m_input
-  std::unique_ptr<OIIO::ImageInput> m_input;
+  Reader m_reader;
   OIIO::ImageSpec m_spec;
   int m_firstChannel = 0, m_channels = 3;
 };

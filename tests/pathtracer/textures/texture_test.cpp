@@ -1,5 +1,8 @@
 #include "textures/texture_set.h"
 
+#include <sys/resource.h>
+#include <zlib.h>
+
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -198,6 +201,43 @@ TEST_CASE("pictures that cannot be textures are input errors that name scene, fi
   CHECK_THAT(errorOf({.file = broken}), Catch::Contains("NaN or infinite"));
   std::filesystem::resize_file(opaque, std::filesystem::file_size(opaque) / 2);
   CHECK_THAT(errorOf({.file = opaque}), Catch::Contains("colors.png: "));
+}
+
+TEST_CASE("pictures that announce more than they have are refused before memory is taken, in files and within others") {
+  PictureFolder folder;
+  const auto whole = folder.write("colors.png", 4, 2, 3, kColors);
+  std::ifstream stream(whole, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+  const auto bigEndian = [](std::uint32_t number) {
+    std::string text;
+    for (int shift = 24; shift >= 0; shift -= 8) text += char(number >> shift & 0xff);
+    return text;
+  };
+  const auto check = [&](const std::string& forged, const std::string& reason) {
+    BitmapTexture bitmap{.file = folder / "forged.png"};
+    std::ofstream(bitmap.file, std::ios::binary) << forged;
+    rusage before{}, after{};
+    getrusage(RUSAGE_SELF, &before);
+    CHECK_THAT(errorOf(bitmap), Catch::Contains("forged.png: cannot be read as a picture: " + reason));
+    bitmap.bytes = std::make_shared<std::string>(forged);
+    CHECK_THAT(errorOf(bitmap), Catch::Contains("forged.png: cannot be read as a picture: " + reason));
+    getrusage(RUSAGE_SELF, &after);
+    CHECK(after.ru_maxrss - before.ru_maxrss < 100'000);  // kB
+  };
+  std::string longChunk = bytes;
+  longChunk.replace(longChunk.find("IDAT") - 4, 4, "MMMM");
+  check(longChunk, "its chunk 'IDAT' is cut short: 1296911693 bytes are announced");
+
+  const std::size_t header = bytes.find("IHDR");
+  for (const auto& [side, interlace] : {std::pair(16'000u, 0), std::pair(16'000u, 1), std::pair(1'000'000u, 0)}) {
+    std::string huge = bytes;
+    huge.replace(header + 4, 8, bigEndian(side) + bigEndian(side));
+    huge[header + 16] = char(interlace);
+    const auto checksum = crc32(0, reinterpret_cast<const Bytef*>(&huge[header]), 17);
+    huge.replace(header + 17, 4, bigEndian(std::uint32_t(checksum)));
+    CAPTURE(side, interlace);
+    check(huge, "");
+  }
 }
 
 TEST_CASE("pictures within other files") {
