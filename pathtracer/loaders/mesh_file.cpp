@@ -130,12 +130,14 @@ TriangleMesh readByAssimp(const MeshFile& file) {
   return collector.take();
 }
 
-TriangleMesh readSerialized(const MeshFile& file) {
-  TriangleMesh mesh = readSerializedMesh(file.path, file.shapeIndex);
-  if (file.faceNormals) mesh.normals.clear();
+/// `isFlat` is set if the file says so.
+TriangleMesh readSerialized(const MeshFile& file, bool& isFlat) {
+  SerializedMesh read = readSerializedMesh(file.path, file.shapeIndex);
+  isFlat = isFlat || read.faceNormals;
+  if (isFlat) read.mesh.normals.clear();
   if (file.flipV)
-    for (Vec2& uv : mesh.uvs) uv.y = 1 - uv.y;
-  return mesh;
+    for (Vec2& uv : read.mesh.uvs) uv.y = 1 - uv.y;
+  return std::move(read.mesh);
 }
 
 }  // namespace
@@ -149,11 +151,13 @@ TriangleMesh readMesh(const MeshFile& file) {
   const std::string name = file.path.string();
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file.path, ignored)) throw InputError(name + ": no such mesh file");
-  TriangleMesh mesh = lowerCaseEnding(file.path) == ".serialized" ? readSerialized(file) : readByAssimp(file);
+  const bool isSerialized = lowerCaseEnding(file.path) == ".serialized";
+  bool isFlat = file.faceNormals;
+  TriangleMesh mesh = isSerialized ? readSerialized(file, isFlat) : readByAssimp(file);
   if (mesh.triangles.empty()) throw InputError(name + ": the mesh has no triangles");
   checkFinite(mesh, name);
-  if (lowerCaseEnding(file.path) != ".serialized") joinEqualVertices(mesh);
-  if (mesh.normals.empty() && !file.faceNormals) computeSmoothNormals(mesh);
+  if (!isSerialized) joinEqualVertices(mesh);
+  if (mesh.normals.empty() && !isFlat) computeSmoothNormals(mesh);
   return mesh;
 }
 

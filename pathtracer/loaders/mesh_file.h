@@ -10,9 +10,10 @@ namespace pt {
 /// Which mesh to read from a file and how; equal requests share one mesh.
 struct MeshFile {
   std::filesystem::path path;
-  bool faceNormals = false;  ///< keep no vertex normals; otherwise missing ones become smooth
-  bool flipV = false;        ///< turn v upside down, so that v = 0 is the top row of a picture
-  int shapeIndex = 0;        ///< which mesh of a .serialized file
+  bool faceNormals =
+      false;           ///< keep no vertex normals; otherwise missing ones become smooth, unless the file says flat
+  bool flipV = false;  ///< turn v upside down, so that v = 0 is the top row of a picture
+  int shapeIndex = 0;  ///< which mesh of a .serialized file
 
   auto operator<=>(const MeshFile&) const = default;
 };

@@ -82,20 +82,19 @@ class MeshReader {
     m_triangles = count("triangles", 3 * sizeof(std::uint32_t));
   }
 
-  TriangleMesh read() {
+  SerializedMesh read() {
     TriangleMesh mesh;
     mesh.positions = readVectors<Vec3>(m_vertices);
     if (m_flags & kHasNormals) mesh.normals = readVectors<Vec3>(m_vertices);
     if (m_flags & kHasUvs) mesh.uvs = readVectors<Vec2>(m_vertices);
     if (m_flags & kHasColors) readVectors<Vec3>(m_vertices);
-    if (m_flags & kFaceNormals) mesh.normals.clear();
     mesh.triangles.resize(m_triangles);
     m_stream.read(mesh.triangles.data(), m_triangles * sizeof(mesh.triangles[0]));
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
       for (const std::uint32_t vertex : mesh.triangles[i])
         if (vertex >= m_vertices)
           throw InputError(fmt::format("{}: triangle {} refers to vertex {} of {}", m_name, i, vertex, m_vertices));
-    return mesh;
+    return {std::move(mesh), (m_flags & kFaceNormals) != 0};
   }
 
  private:
@@ -133,7 +132,7 @@ class MeshReader {
 
 }  // namespace
 
-TriangleMesh readSerializedMesh(const std::filesystem::path& path, int index) {
+SerializedMesh readSerializedMesh(const std::filesystem::path& path, int index) {
   const std::string name = path.string();
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(name + ": cannot be opened");

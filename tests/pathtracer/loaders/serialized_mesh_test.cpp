@@ -98,18 +98,19 @@ TEST_CASE("serialized meshes: versions 3 and 4, each mesh of a file, single and 
     SceneFolder folder;
     const auto file = folder.write("m.serialized", serialized({moved, fullPart(), precise, faceted}, version));
 
-    const TriangleMesh plain = readSerializedMesh(file, 0);
+    const TriangleMesh plain = readSerializedMesh(file, 0).mesh;
     CHECK(plain.positions.at(0) == Vec3(-5, 0, 0));
     CHECK(plain.normals.empty());
     CHECK(plain.uvs.empty());
     CHECK(plain.triangles.at(0) == std::array<std::uint32_t, 3>{0, 1, 2});
     for (const int index : {1, 2}) {
-      const TriangleMesh full = readSerializedMesh(file, index);
+      const TriangleMesh full = readSerializedMesh(file, index).mesh;
       CHECK(full.positions.at(1) == Vec3(1, 0, 0));
       CHECK(full.normals.at(2) == Vec3(0, 0.6f, 0.8f));
       CHECK(full.uvs.at(1) == Vec2(1, 0.25f));
     }
-    CHECK(readSerializedMesh(file, 3).normals.empty());
+    CHECK(readSerializedMesh(file, 3).faceNormals);
+    CHECK_FALSE(readSerializedMesh(file, 1).faceNormals);
 
     // As a mesh of a scene: missing normals become smooth, vertices stay as they are.
     MeshFile request{file};
@@ -120,6 +121,9 @@ TEST_CASE("serialized meshes: versions 3 and 4, each mesh of a file, single and 
     CHECK(readMesh(request).uvs.at(0).y == 0.75f);
     request.faceNormals = true;
     CHECK(readMesh(request).normals.empty());
+    request.faceNormals = false;
+    request.shapeIndex = 3;
+    CHECK(readMesh(request).normals.empty());  // flat, as the file says
   }
 }
 
