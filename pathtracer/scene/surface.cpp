@@ -181,6 +181,7 @@ Instance::Instance(const Transform& transform, std::size_t groupIndex) : toWorld
                                  toWorld.inverseVector({0, 0, 1})};
   const double condition = norm(linear) * norm(inverse) / 3;  // 1 for similarities
   error = float(8 * double(kHalfUlp) * condition);
+  scale = float(std::cbrt(std::abs(linear[0].dot(linear[1].cross(linear[2])))));
 }
 
 void completeInteraction(const Surface& surface, const Instance* instance, const Ray& ray, const AccelHit& hit,
@@ -197,6 +198,7 @@ void completeInteraction(const Surface& surface, const Instance* instance, const
     local.p = instance->toWorld.point(local.p);
     local.ng = unit(instance->toWorld.normal(Imath::V3d(local.ng)));
     local.ns = unit(instance->toWorld.normal(Imath::V3d(local.ns)));
+    si.uvWidth /= instance->scale;
   }
   si.p = Vec3(local.p);
   si.ng = local.ng.dot(local.ns) < 0 ? -local.ng : local.ng;

@@ -31,6 +31,7 @@ struct Instance {
   Transform toWorld;
   std::size_t group = 0;
   float error = 0;  ///< world units per unit of size of the coordinates
+  float scale = 1;  ///< of lengths, in the mean
 
   Instance(const Transform& transform, std::size_t groupIndex);
 };

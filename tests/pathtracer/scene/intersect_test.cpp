@@ -52,6 +52,22 @@ TEST_CASE("Vertex normals are interpolated and turn the geometric normal to thei
   checkVector(flat.frame.n, {0, 0, 1});
 }
 
+TEST_CASE("A pixel is as wide on an instance's texture as on that of a shape of its size") {
+  for (const float scale : {1.0f, 100.0f, -100.0f}) {
+    const Matrix4 toWorld = test::scaling(Vec3(scale)) * test::translation({0, 0, 500});
+    auto alone = test::sceneOf(RectangleShape{}, toWorld);
+    alone.textures.push_back({CheckerboardTexture{}, {}, "test"});
+    alone.materials[0].kind = DiffuseMaterial{{Spectrum(1.0f), 0}};
+    auto instanced = alone;
+    instanced.groups.push_back({"group", {test::makeShape(RectangleShape{})}});
+    instanced.shapes = {test::makeShape(InstanceShape{0}, toWorld)};
+    instanced.shapes[0].material = kNone;
+    const float width = hitOf(alone, {0.5f, 0.25f, 0}, {0, 0, 1}).uvWidth;
+    CHECK(width > 0);
+    CHECK(hitOf(instanced, {0.5f, 0.25f, 0}, {0, 0, 1}).uvWidth == Approx(width));
+  }
+}
+
 TEST_CASE("Flat meshes flip with flipNormals") {
   auto description = test::sceneOf(test::makeMesh({{0, 0, 5}, {2, 0, 5}, {0, 2, 5}}));
   description.shapes[0].flipNormals = true;
