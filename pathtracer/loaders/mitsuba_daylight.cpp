@@ -14,15 +14,26 @@ Vec3 readSunDirection(Reader& reader) {
     return direction.normalized();
   }
   DateAndPlace when;
-  when.year = reader.integer("year", when.year);
-  when.month = reader.integer("month", when.month);
-  when.day = reader.integer("day", when.day);
-  when.hour = reader.number("hour", float(when.hour));
-  when.minute = reader.number("minute", float(when.minute));
-  when.second = reader.number("second", float(when.second));
-  when.latitude = reader.number("latitude", float(when.latitude));
-  when.longitude = reader.number("longitude", float(when.longitude));
-  when.timezone = reader.number("timezone", float(when.timezone));
+  const auto integer = [&](const char* name, int fallback, int least, int most) {
+    const int value = reader.integer(name, fallback);
+    if (value < least || value > most) reader.fail(name, fmt::format("must lie between {} and {}", least, most));
+    return value;
+  };
+  const auto number = [&](const char* name, double fallback, double least, double most) {
+    const auto value = double(reader.number(name, float(fallback)));
+    if (!(value >= least && value <= most)) reader.fail(name, fmt::format("must lie between {} and {}", least, most));
+    return value;
+  };
+  constexpr int kFirstGregorianYear = 1583;
+  when.year = integer("year", when.year, kFirstGregorianYear, 9999);
+  when.month = integer("month", when.month, 1, 12);
+  when.day = integer("day", when.day, 1, 31);
+  when.hour = number("hour", when.hour, 0, 24);
+  when.minute = number("minute", when.minute, 0, 60);
+  when.second = number("second", when.second, 0, 60);
+  when.latitude = number("latitude", when.latitude, -90, 90);
+  when.longitude = number("longitude", when.longitude, -360, 360);
+  when.timezone = number("timezone", when.timezone, -24, 24);
   return sunDirection(when);
 }
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <iostream>
 
@@ -126,6 +128,20 @@ TEST_CASE("daylight in scene files") {
   CHECK(folder.errorOf("a.xml",
                        mitsubaScene(R"(<emitter type="sky"><float name="turbidity" value="1"/></emitter>)", "0.6.0")) ==
         "a.xml:2: turbidity of emitter 'sky' must lie between 1.7 and 10");
+  const auto dateError = [&](const char* name, const std::string& value) {
+    const bool isInteger = std::string_view("year month day").find(name) != std::string_view::npos;
+    return folder.errorOf("a.xml",
+                          mitsubaScene(fmt::format(R"(<emitter type="sky"><{} name="{}" value="{}"/></emitter>)",
+                                                   isInteger ? "integer" : "float", name, value),
+                                       "0.6.0"));
+  };
+  CHECK(dateError("year", "2147483647") == "a.xml:2: year of emitter 'sky' must lie between 1583 and 9999");
+  CHECK(dateError("month", "13") == "a.xml:2: month of emitter 'sky' must lie between 1 and 12");
+  CHECK(dateError("day", "400") == "a.xml:2: day of emitter 'sky' must lie between 1 and 31");
+  CHECK(dateError("hour", "-1") == "a.xml:2: hour of emitter 'sky' must lie between 0 and 24");
+  CHECK(dateError("minute", "61") == "a.xml:2: minute of emitter 'sky' must lie between 0 and 60");
+  CHECK(dateError("latitude", "91") == "a.xml:2: latitude of emitter 'sky' must lie between -90 and 90");
+  CHECK(dateError("timezone", "-12").empty());
   CHECK(folder.errorOf("a.json", R"({"lights": [{"type": "daylight", "direction": [0, 1, 0], "turbidity": 11}]})") ==
         "a.json#/lights/0/turbidity: must lie between 1.7 and 10");
 }
