@@ -58,12 +58,16 @@ void checkVersion(const Document& document) {
     version.fail(fmt::format("version {} of glTF is not supported; convert it to 2.0", version.string()));
   if (const auto required = root.find("extensionsRequired"))
     for (const json::Node& extension : required->elements())
-      if (std::find(kKnownExtensions.begin(), kKnownExtensions.end(), extension.string()) == kKnownExtensions.end())
+      if (!isKnownExtension(extension.string()))
         extension.fail(
             fmt::format("the extension {} is not supported; export the file without it", extension.string()));
 }
 
 }  // namespace
+
+bool isKnownExtension(const std::string& name) {
+  return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) != kKnownExtensions.end();
+}
 
 Document readDocument(const std::filesystem::path& file) {
   const std::string text = readTextFile(file);

@@ -16,6 +16,9 @@ struct Document {
 /// Reads .gltf and .glb. Throws InputError for a file that is damaged or of another version.
 Document readDocument(const std::filesystem::path& file);
 
+/// Whether the loader reads an extension of this name.
+bool isKnownExtension(const std::string& name);
+
 /// Element `index` of the root's array `name` ("nodes", "meshes", ...), asked for by `user`. Throws InputError if there
 /// is none.
 json::Node elementOf(const Document& document, const std::string& name, const json::Node& user);

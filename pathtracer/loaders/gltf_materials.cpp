@@ -28,8 +28,8 @@ class MaterialReader {
     readMetallicRoughness();
     readDielectric();
     readCoats();
+    m_emission = readEmission();
     Surface surface;
-    surface.emission = readEmission();
     surface.material = add(m_principled);
     if (const auto normal = m_object.find("normalTexture")) surface.material = addNormalMap(surface.material, *normal);
     // Both sides are shown, whatever the file says of culling: a path tracer sees surfaces from everywhere.
@@ -37,6 +37,7 @@ class MaterialReader {
       surface.material = add(TwoSidedMaterial{surface.material, surface.material});
     surface.material = addAlpha(surface.material);
     m_context.scene.materials[std::size_t(surface.material)].absorption = m_absorption;
+    surface.emission = m_emission;
     return surface;
   }
 
@@ -105,7 +106,8 @@ class MaterialReader {
   void readCoats() {
     if (auto sheen = findExtension(m_object, "KHR_materials_sheen")) {
       m_principled.sheen = {readColor(*sheen, "sheenColorFactor", 0), color(*sheen, "sheenColorTexture")};
-      if (sheen->find("sheenRoughnessTexture")) note("has a sheenRoughnessTexture, which is not used");
+      for (const std::string key : {"sheenRoughnessFactor", "sheenRoughnessTexture"})
+        if (sheen->find(key)) note(fmt::format("has a {}, which is not used", key));
     }
     if (auto coat = findExtension(m_object, "KHR_materials_clearcoat")) {
       m_principled.clearcoat = {coat->number("clearcoatFactor", 0),
@@ -146,7 +148,22 @@ class MaterialReader {
     mask.material = material;
     mask.opacity = m_alpha;
     if (mode == 1) mask.cutoff = m_object.number("alphaCutoff", 0.5f);
+    maskEmission(mask);
     return add(mask);
+  }
+
+  /// What is transparent does not glow.
+  void maskEmission(const MaskMaterial& mask) {
+    if (!m_emission) return;
+    const float alpha = mask.opacity.value;
+    if (mask.opacity.texture == kNone) {
+      m_emission->value *= mask.cutoff ? float(alpha >= *mask.cutoff) : alpha;
+      if (isBlack(m_emission->value)) m_emission.reset();
+    } else if (!mask.cutoff && m_emission->texture == kNone) {
+      m_emission = SpectrumParameter(m_emission->value * alpha, mask.opacity.texture);
+    } else {
+      note("glows where it is transparent, too");
+    }
   }
 
   static Spectrum readColor(json::ObjectReader& object, const char* key, float fallback) {
@@ -165,6 +182,7 @@ class MaterialReader {
   PrincipledMaterial m_principled;
   FloatParameter m_alpha{1.0f};
   std::optional<json::Node> m_alphaTexture;  ///< reference to it
+  std::optional<SpectrumParameter> m_emission;
   Spectrum m_absorption{0.0f};
 };
 

@@ -116,7 +116,9 @@ class SceneReader {
         ++m_pointsAndLines;
         continue;
       }
-      const auto material = json::ObjectReader(primitives[i]).find("material");
+      json::ObjectReader primitive(primitives[i]);
+      m_hasColors = m_hasColors || json::ObjectReader(primitive.require("attributes")).find("COLOR_0");
+      const auto material = primitive.find("material");
       const Surface surface = material ? m_surfaces[std::size_t(material->integer(0))] : withoutMaterial();
       ShapeDescription shape;
       shape.kind = MeshShape{triangles};
@@ -161,6 +163,12 @@ class SceneReader {
     if (m_otherCameras > 0) note(fmt::format("{} more cameras are not used", m_otherCameras));
     if (m_pointsAndLines > 0) note(fmt::format("{} primitives are points or lines and not shown", m_pointsAndLines));
     if (m_skinned) note("skins are not applied: meshes stand as they were modelled");
+    if (m_hasColors) note("colours of vertices (COLOR_0) are not used");
+    json::ObjectReader root(m_context.document.root());
+    if (const auto used = root.find("extensionsUsed"))
+      for (const json::Node& extension : used->elements())
+        if (!isKnownExtension(extension.string()))
+          note(fmt::format("the extension {} is not used", extension.string()));
     if (m_context.document.json.contains("animations")) note("animations are not played: everything stands as at rest");
   }
 
@@ -171,7 +179,7 @@ class SceneReader {
   std::map<int, std::vector<Placed>> m_placed;
   std::set<int> m_visited;
   int m_otherCameras = 0, m_pointsAndLines = 0;
-  bool m_skinned = false;
+  bool m_skinned = false, m_hasColors = false;
 };
 
 }  // namespace

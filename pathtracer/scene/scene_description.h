@@ -151,7 +151,7 @@ struct NormalMapMaterial {
   bool mirrorsWithUv = false;  ///< the bitangent follows mirrored texture coordinates (glTF), else it is n x tangent
 };
 /// Metal or plastic or glass or something between, by few numbers in [0, 1], as glTF 2.0's metallic-roughness material
-/// with its extensions for transmission, sheen, clearcoat, specular, index of refraction and anisotropy.
+/// with its extensions for transmission, sheen, clearcoat, specular and index of refraction; and Mitsuba's anisotropy.
 struct PrincipledMaterial {
   SpectrumParameter baseColor{0.5f};
   FloatParameter metallic{0.0f};

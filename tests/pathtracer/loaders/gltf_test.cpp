@@ -358,6 +358,44 @@ TEST_CASE("glTF: alpha") {
   CHECK(materialAs<MaskMaterial>(cut, cut.shapes.at(0).material).cutoff == 0.5f);
 }
 
+TEST_CASE("glTF: what is transparent does not glow") {
+  const std::string base =
+      R"({"name": "sign", "emissiveFactor": [2, 2, 2], "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.25]}, )";
+  const auto emissionOf = [](const SceneDescription& scene) { return scene.shapes.at(0).emission; };
+  CHECK(emissionOf(withMaterial(base + R"("alphaMode": "OPAQUE"})"))->value.x == 2);
+  CHECK(emissionOf(withMaterial(base + R"("alphaMode": "BLEND"})"))->value.x == 0.5f);
+  CHECK(emissionOf(withMaterial(base + R"("alphaMode": "MASK", "alphaCutoff": 0.25})"))->value.x == 2);
+  CHECK_FALSE(emissionOf(withMaterial(base + R"("alphaMode": "MASK"})")));
+
+  const std::string leaf = "\x89PNG" + std::string(21, '-') + "\x06----IDAT";
+  const auto textured = [&](const std::string& more) {
+    return withMaterial(
+        R"({"name": "sign", "emissiveFactor": [2, 2, 2], "pbrMetallicRoughness": {"baseColorTexture":
+        {"index": 0}}, )" +
+            more + "}",
+        R"(, "textures": [{"source": 0}], "images": [{"uri": "data:image/png;base64,)" + base64(leaf) + R"("}])");
+  };
+  const std::string text = "the material \"sign\" glows where it is transparent, too";
+  const SceneDescription blended = textured(R"("alphaMode": "BLEND")");
+  CHECK(bitmapOf(blended, emissionOf(blended)->texture).channel == TextureChannel::Alpha);
+  CHECK_FALSE(isNoted(blended, text));
+  CHECK(isNoted(textured(R"("alphaMode": "MASK")"), text));
+  CHECK(isNoted(textured(R"("alphaMode": "BLEND", "emissiveTexture": {"index": 0})"), text));
+}
+
+TEST_CASE("glTF: what is not used is noted") {
+  const SceneDescription scene =
+      load(kOneNode + R"(, "extensionsUsed": ["KHR_materials_anisotropy", "KHR_materials_ior", "KHR_materials_sheen"],
+        "materials": [{"name": "wool", "extensions": {"KHR_materials_sheen": {"sheenRoughnessFactor": 0.3}}}])",
+           R"("POSITION": 1, "COLOR_0": 2)", R"(, "material": 0)");
+  CHECK(isNoted(scene, "a.gltf: the extension KHR_materials_anisotropy is not used"));
+  CHECK_FALSE(isNoted(scene, "KHR_materials_ior"));
+  CHECK_FALSE(isNoted(scene, "extension KHR_materials_sheen"));
+  CHECK(isNoted(scene, "the material \"wool\" has a sheenRoughnessFactor, which is not used"));
+  CHECK(isNoted(scene, "a.gltf: colours of vertices (COLOR_0) are not used"));
+  CHECK_FALSE(isNoted(load(kOneNode), "COLOR_0"));
+}
+
 TEST_CASE("glTF: what cannot be used is told with its place") {
   SceneFolder folder;
   CHECK(folder.errorOf("a.gltf", R"({"asset": {"version": "1.0"}})") ==
