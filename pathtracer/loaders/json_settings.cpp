@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "loaders/json_parts.h"
 
 namespace pt::json {

@@ -59,7 +59,6 @@ class XmlReader {
     m_scene.search.addFolder(file.folder());
     m_scene.root = readElement(file, file.root(), 0);
     checkGivenVariables(path);
-    for (const auto& [name, value] : m_variables) m_scene.variables.push_back(name);
     return std::move(m_scene);
   }
 

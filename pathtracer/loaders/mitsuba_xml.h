@@ -22,7 +22,6 @@ struct Element {
 struct XmlScene {
   Element root;
   FileSearch search;
-  std::vector<std::string> variables;  ///< names that had a value
 };
 
 /// Reads a scene file, replaces $variables (the given values beat the <default>s), follows <include> and <path>.

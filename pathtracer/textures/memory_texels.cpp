@@ -1,7 +1,6 @@
 #include "textures/memory_texels.h"
 
 #include <OpenImageIO/imagebufalgo.h>
-#include <fmt/format.h>
 
 #include "core/error.h"
 

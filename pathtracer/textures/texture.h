@@ -29,8 +29,6 @@ class Texture {
 
   /// Bounds on what color() and number() can return.
   virtual TextureRange range() const noexcept = 0;
-  /// Of the texels that are held in memory.
-  virtual std::size_t memoryBytes() const noexcept { return 0; }
 };
 
 }  // namespace pt

@@ -1,7 +1,5 @@
 #include "textures/texture_set.h"
 
-#include <fmt/format.h>
-
 #include <exception>
 #include <functional>
 #include <map>
