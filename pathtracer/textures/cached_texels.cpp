@@ -48,7 +48,7 @@ float CachedTexels<Channels>::decode(float x) const noexcept {
 template <int Channels>
 auto CachedTexels<Channels>::operator()(int level, int x, int y) const noexcept -> Value {
   float values[Channels] = {};
-  get(level, x, y, 1, 1, values);
+  if (!get(level, x, y, 1, 1, values)) m_cache->countFailedRead();
   if constexpr (Channels == 1)
     return decode(values[0]);
   else

@@ -2,6 +2,8 @@
 
 #include <OpenImageIO/imagecache.h>
 
+#include <atomic>
+#include <cstdint>
 #include <type_traits>
 
 #include "textures/byte_table.h"
@@ -17,11 +19,15 @@ class TileCache {
 
   OIIO::ImageCache& operator*() const noexcept { return *m_cache; }
 
+  void countFailedRead() const noexcept { m_failedReads.fetch_add(1, std::memory_order_relaxed); }
+  std::uint64_t failedReads() const noexcept { return m_failedReads.load(std::memory_order_relaxed); }
+
  private:
   struct Destroy {
     void operator()(OIIO::ImageCache* cache) const { OIIO::ImageCache::destroy(cache); }
   };
   std::unique_ptr<OIIO::ImageCache, Destroy> m_cache;
+  mutable std::atomic<std::uint64_t> m_failedReads{0};
 };
 
 /// The same texels as MemoryTexels, through a TileCache; coarser levels are means of encoded numbers.

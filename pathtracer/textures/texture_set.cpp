@@ -114,8 +114,8 @@ TextureSet::TextureSet(const SceneDescription& description) {
       pictures[keyOf(*bitmap)].source = texture.source;
   forEachPicture(pictures,
                  [](const PictureKey& key, Picture& picture) { picture.file = std::make_unique<PictureFile>(key); });
-  const auto cache = shareMemory(pictures, description.textureMemoryBytes);
-  forEachPicture(pictures, [&](const PictureKey&, Picture& picture) { load(picture, cache); });
+  m_cache = shareMemory(pictures, description.textureMemoryBytes);
+  forEachPicture(pictures, [&](const PictureKey&, Picture& picture) { load(picture, m_cache); });
 
   for (const TextureDescription& texture : description.textures) {
     const UvMap uvMap = uvMapOf(texture);
@@ -130,6 +130,10 @@ TextureSet::TextureSet(const SceneDescription& description) {
     m_memoryBytes += picture.memoryBytes;
     m_cachedPictures += picture.isCached ? 1 : 0;
   }
+}
+
+std::uint64_t TextureSet::failedReads() const noexcept {
+  return m_cache ? m_cache->failedReads() : 0;
 }
 
 }  // namespace pt

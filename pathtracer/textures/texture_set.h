@@ -8,6 +8,8 @@
 
 namespace pt {
 
+class TileCache;
+
 /// The textures of a scene.
 class TextureSet {
  public:
@@ -24,9 +26,13 @@ class TextureSet {
   std::size_t size() const noexcept { return m_textures.size(); }
   std::size_t memoryBytes() const noexcept { return m_memoryBytes; }  ///< of texels held
   std::size_t cachedPictures() const noexcept { return m_cachedPictures; }
+  /// Of tiles, while textures are looked up: the file has changed. What should have been there is black; OpenImageIO
+  /// tells once for all tiles that it reads together.
+  std::uint64_t failedReads() const noexcept;
 
  private:
   std::vector<std::unique_ptr<const Texture>> m_textures;
+  std::shared_ptr<const TileCache> m_cache;  ///< null if all pictures are in memory
   std::size_t m_memoryBytes = 0, m_cachedPictures = 0;
 };
 

@@ -158,6 +158,21 @@ TEST_CASE("pictures that memory has no room for are read through a cache, to the
   }
 }
 
+TEST_CASE("a file that is cut while it is read through the cache has black texels, and that is counted") {
+  PictureFolder folder;
+  constexpr int kSize = 3000;  // more texels than the cache holds
+  const auto file = folder.write("cut.exr", kSize, kSize, 3, std::vector<float>(3 * kSize * kSize, 0.5f));
+  SceneDescription scene = sceneWith({.file = file, .filter = TextureFilter::Nearest});
+  scene.textureMemoryBytes = 0;
+  const TextureSet textures(scene);
+  CHECK(textures.failedReads() == 0);
+  std::filesystem::resize_file(file, 1000);
+  int black = 0;
+  for (int y = 32; y < kSize; y += 64) black += isBlack(textures.find(0)->color({{0.5f, float(y) / kSize}})) ? 1 : 0;
+  CHECK(black > 10);
+  CHECK(textures.failedReads() > 10);
+}
+
 TEST_CASE("pictures are read once, whatever reads them") {
   PictureFolder folder;
   const BitmapTexture bitmap{.file = folder.write("colors.png", 4, 2, 3, kColors)};
