@@ -69,9 +69,11 @@ IterationPlan TrainingSchedule::next() const {
     return plan;
   }
 
-  plan.keepsDensity = m_settings.combination == SampleCombination::Automatic && trainingShouldEnd();
+  const bool trainingEnds = m_settings.combination == SampleCombination::Automatic && trainingShouldEnd();
   const bool isTrained = budget - remaining + expectedCost > m_settings.trainingShare * budget;
-  plan.isFinal = plan.keepsDensity || isTrained || remaining - expectedCost < m_settings.finalRatio * expectedCost;
+  plan.isFinal = trainingEnds || isTrained || remaining - expectedCost < m_settings.finalRatio * expectedCost;
+  // Nothing was learned from a trial: the density it was put on trial against is the one to go on with.
+  plan.keepsDensity = trainingEnds || (plan.index > 0 && !m_iterations.back().plan.usesGuide);
   if (plan.isFinal) plan.spp = m_sppBudget > 0 ? std::int64_t(remaining) : kUntilTimeIsOver;
   return plan;
 }
@@ -87,10 +89,16 @@ const TrainingSchedule::Iteration* TrainingSchedule::trial() const {
   return found == m_iterations.end() ? nullptr : &*found;
 }
 
+std::vector<const IterationOutcome*> TrainingSchedule::guidedOutcomes() const {
+  std::vector<const IterationOutcome*> outcomes;
+  for (const Iteration& i : m_iterations)
+    if (i.plan.usesGuide) outcomes.push_back(&i.outcome);
+  return outcomes;
+}
+
 double TrainingSchedule::secondsOfLastGuided() const {
-  const auto found =
-      std::find_if(m_iterations.rbegin(), m_iterations.rend(), [](const Iteration& i) { return i.plan.usesGuide; });
-  return found == m_iterations.rend() ? 0 : found->outcome.seconds;
+  const auto guided = guidedOutcomes();
+  return guided.empty() ? 0 : guided.back()->seconds;
 }
 
 bool TrainingSchedule::trialIsDue(double spent, double expectedCost) const {
@@ -112,10 +120,12 @@ bool TrainingSchedule::guidePays(const Iteration& trial) const {
 }
 
 bool TrainingSchedule::trainingShouldEnd() const {
-  if (m_iterations.empty()) return false;
+  const auto guided = guidedOutcomes();
+  if (guided.empty()) return false;
+  const IterationOutcome& last = *guided.back();
   const double remaining = remainingBudget();
-  if (remaining < costOf(m_iterations.back().outcome)) return true;
-  if (m_iterations.size() < 2) return false;
+  if (remaining < costOf(last)) return true;
+  if (guided.size() < 2) return false;
 
   std::int64_t spp = 0;
   for (const Iteration& i : m_iterations) spp += i.outcome.spp;
@@ -123,8 +133,7 @@ bool TrainingSchedule::trainingShouldEnd() const {
   const auto varianceAtEnd = [this](const IterationOutcome& o, double budgetLeft) {
     return o.variance * costOf(o) / (costOf(o) + budgetLeft);
   };
-  const IterationOutcome& last = m_iterations.back().outcome;
-  const IterationOutcome& before = m_iterations[m_iterations.size() - 2].outcome;
+  const IterationOutcome& before = *guided[guided.size() - 2];
   if (!(last.variance > 0) || !(before.variance > 0)) return false;
   return varianceAtEnd(last, remaining) > varianceAtEnd(before, remaining + costOf(last));
 }
@@ -152,7 +161,9 @@ std::vector<double> TrainingSchedule::lastWeights() const {
   const std::size_t last = m_iterations.size() - 1;
   const double a = last > 0 ? double(m_iterations[last - 1].outcome.spp) : 0,
                b = double(m_iterations[last].outcome.spp);
-  if (m_iterations[last].plan.keepsDensity && m_iterations[last].plan.usesGuide && last > 0 && a + b > 0) {
+  const bool shareDensity = last > 0 && m_iterations[last].plan.keepsDensity &&
+                            m_iterations[last - 1].plan.usesGuide == m_iterations[last].plan.usesGuide;
+  if (shareDensity && a + b > 0) {
     weights[best] = 0;
     weights[last - 1] = a / (a + b);
     weights[last] = b / (a + b);
@@ -165,14 +176,17 @@ std::vector<double> TrainingSchedule::inverseVarianceWeights(VarianceOf&& varian
   const std::size_t count = m_iterations.size();
   const std::size_t first = count - std::min<std::size_t>(count, std::size_t(m_settings.combinedIterations));
   // A short iteration that missed what is rare looks better than it is. Guides improve from iteration to iteration, so
-  // no sample may count more than one of a later iteration. One of an iteration that looks exact, or of which nothing
-  // is known, counts as much as one of the next, and of the last ones as one of those before.
+  // no sample may count more than one of a later iteration, but for a trial that was worse by being unguided. One of an
+  // iteration that looks exact, or of which nothing is known, counts as much as one of the next, and of the last ones
+  // as one of those before.
   std::vector<double> variancePerSample(count, 0);
   double largest = 0;
   for (std::size_t i = count; i-- > first;) {
     const double variance = varianceOf(m_iterations[i].outcome) * double(m_iterations[i].outcome.spp);
-    if (variance > 0 && std::isfinite(variance)) largest = std::max(largest, variance);
-    variancePerSample[i] = largest;
+    const bool isKnown = variance > 0 && std::isfinite(variance);
+    variancePerSample[i] = isKnown ? std::max(largest, variance) : largest;
+    const bool guidingWentOn = !m_iterations[i].plan.usesGuide && m_iterations.back().plan.usesGuide;
+    if (!guidingWentOn) largest = variancePerSample[i];
   }
   const auto known = std::find_if(variancePerSample.rbegin(), variancePerSample.rend(), [](double v) { return v > 0; });
   std::fill(variancePerSample.rbegin(), known, known == variancePerSample.rend() ? 1.0 : *known);

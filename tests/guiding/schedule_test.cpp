@@ -338,6 +338,8 @@ TEST_CASE("Guiding that does not pay is left after its trial, and guiding that p
       if (bySamples ? c.paysBySamples : c.pays) {
         CHECK(without.size() == 1);
         CHECK(iterations[trial + 1].plan.spp == 2 * iterations[trial - 1].plan.spp);
+        CHECK(iterations[trial + 1].plan.keepsDensity);  // the trial taught nothing
+        CHECK(!iterations[trial + 2].plan.keepsDensity);
         CHECK(iterations.size() > trial + 2);
       } else {
         CHECK(iterations.size() == trial + 2);
@@ -347,6 +349,36 @@ TEST_CASE("Guiding that does not pay is left after its trial, and guiding that p
       CHECK(iterations.back().plan.isFinal);
       CHECK(sum(schedule.imageWeights()) == Approx(1));
     }
+}
+
+TEST_CASE("A trial that guiding wins neither ends training nor weighs upon other iterations") {
+  for (const SampleCombination combination : {SampleCombination::Automatic, SampleCombination::InverseVariance}) {
+    ScheduleSettings s{4, combination, 10, 1};
+    s.trialShare = 0.1f;
+    TrainingSchedule schedule(s, 10'000, 0);
+    // A sample's variance halves from iteration to iteration, as long as training goes on; the trial's is far worse.
+    const bool improves = combination == SampleCombination::Automatic;
+    const auto iterations = run(schedule, [&](const IterationPlan& plan) {
+      const double ofSample = (plan.usesGuide ? 1.0 : 4.0) * (improves ? std::ldexp(1.0, -plan.index) : 1);
+      IterationOutcome outcome{plan.spp, ofSample / double(plan.spp), 1};
+      outcome.relativeVariance = outcome.variance;
+      return outcome;
+    });
+    const auto trial =
+        std::find_if(iterations.begin(), iterations.end(), [](const Planned& i) { return !i.plan.usesGuide; });
+    REQUIRE(trial != iterations.end());
+    REQUIRE(trial->plan.spp >= 256);
+    CHECK(!(trial + 1)->plan.isFinal);
+    if (improves) continue;
+
+    const std::vector<double> weights = schedule.imageWeights();
+    const double ofLast = weights.back() / double(iterations.back().outcome.spp);
+    for (std::size_t i = 0; i < iterations.size(); ++i) {
+      CAPTURE(i);
+      const double share = iterations[i].plan.usesGuide ? 1 : 0.25;
+      CHECK(weights[i] / double(iterations[i].outcome.spp) == Approx(share * ofLast));
+    }
+  }
 }
 
 TEST_CASE("Budgets too small for a trial have none") {

@@ -26,10 +26,11 @@ struct ScheduleSettings {
   /// Training ends before the iteration with which it would exceed this share of the budget. Range: (0, 1]; 1:
   /// finalRatio alone decides.
   float trainingShare = 1;
-  /// Guiding must pay: about when this share of the budget is spent, an iteration's samples are repeated without the
-  /// guide, and unless those with it are the more efficient ones by a tenth, the rest of the budget goes without it
-  /// too. Efficiency is told by IterationOutcome::relativeVariance and the cost of tracing: seconds, or samples where
-  /// the budget is in samples. Range: [0, 1); 0: guiding is not put on trial.
+  /// Guiding must pay: about when this share of the budget is spent, and after three iterations at the earliest, an
+  /// iteration's samples are repeated without the guide, and unless those with it are the more efficient ones by a
+  /// tenth, the rest of the budget goes without it too. Efficiency is told by IterationOutcome::relativeVariance and
+  /// the cost of tracing: seconds, or samples where the budget is in samples. Range: [0, 1); 0: guiding is not put on
+  /// trial.
   float trialShare = 0;
   /// An iteration that would leave less than this many times itself of the budget takes all that is left, and is the
   /// last. Range: >= 0, finite.
@@ -47,10 +48,9 @@ struct IterationPlan {
   int index = 0;
   std::int64_t spp =
       0;  ///< samples per pixel; 0: the budget is spent. The final one of a time budget runs until time is over.
-  bool isFinal = false;  ///< no iteration follows, so its samples need not be recorded
-  bool keepsDensity =
-      false;              ///< goes on with the density of the iteration before: do not call Field::endIteration() first
-  bool usesGuide = true;  ///< false: sample the BSDF alone in this iteration, and learn nothing from it
+  bool isFinal = false;       ///< no iteration follows, so its samples need not be recorded
+  bool keepsDensity = false;  ///< goes on with the density at hand: do not call Field::endIteration() first
+  bool usesGuide = true;      ///< false: sample the BSDF alone in this iteration, and learn nothing from it
 };
 
 /// What an iteration came to, as the renderer measured it.
@@ -114,6 +114,7 @@ class TrainingSchedule {
   const Iteration* trial() const;
   bool trialIsDue(double spent, double expectedCost) const;
   bool guidePays(const Iteration& trial) const;
+  std::vector<const IterationOutcome*> guidedOutcomes() const;
   double secondsOfLastGuided() const;
   std::vector<double> lastWeights() const;
   template <class VarianceOf>
