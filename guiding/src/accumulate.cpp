@@ -90,7 +90,7 @@ struct Splat {
 };
 /// The same, and what the sample says of the BSDF's density.
 struct ProductSplat : Splat {
-  float bsdf;
+  double bsdf;  ///< bsdfPdf / pdf
 };
 
 /// The samples by the leaves that learn from them; what is dark is only counted, unless it tells of the BSDF.
@@ -112,7 +112,7 @@ LeafPartition<ProductSplat> productByLeaf(const Field::State& state, const Sampl
       [&](std::size_t i, const RadianceSample& s) { return learningLeaf(state, s, own[i]); },
       [&](const RadianceSample& s) {
         return ProductSplat{{toSquarePoint(sphereToSquare(map, s.direction)), double(s.product) / double(s.pdf)},
-                            s.bsdfPdf / s.pdf};
+                            double(s.bsdfPdf) / double(s.pdf)};
       });
 }
 

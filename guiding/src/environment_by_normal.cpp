@@ -125,7 +125,8 @@ std::vector<EnvironmentProduct::Block> EnvironmentProduct::lookAtBlocks() const 
       const EnvironmentAxis::Point atY{std::min(y, rows.patches() - 1), y == rows.patches() ? 1.0f : 0.0f};
       const Imath::V3f w = m_table->layout().toDirection({columns.position(atX), rows.position(atY)});
       const double area = columns.widthAbout(x) * rows.widthAbout(y);
-      const double solidAngle = area / std::max(1e-3f, m_table->layout().locate(w).areaPerSolidAngle);
+      const double areaPerSolidAngle = m_table->layout().locate(w).areaPerSolidAngle;  // 0 at the poles
+      const double solidAngle = areaPerSolidAngle > 0 ? area / areaPerSolidAngle : 0;
       Block& block = blocks[blockOf(atX.patch, atY.patch)];
       block.light.add(Imath::V3d(w), m_table->m_density[std::size_t(y) * m_table->m_columns + std::size_t(x)] * area);
       block.area.add(Imath::V3d(w), solidAngle);

@@ -71,7 +71,11 @@ void waterFill(const EnvironmentImage& image, double mean, double bsdfShare, std
     uniform[i] = share;
   });
   compensate(target, uniform, bsdfShare, CompensationForm::WaterFilling, target);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = float(mean * (target[i] / uniform[i]));
+  double largest = 0;
+  for (std::size_t i = 0; i < out.size(); ++i) largest = std::max(largest, target[i] / uniform[i]);
+  // As bright as the image, if floats are large enough for that.
+  const double scale = std::min(mean, double(std::numeric_limits<float>::max()) / largest);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = float(scale * (target[i] / uniform[i]));
 }
 
 }  // namespace

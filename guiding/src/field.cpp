@@ -55,7 +55,8 @@ Status Field::endIteration(double spp) noexcept {
 }
 
 GuidingDistribution Field::bind(const Imath::V3f& position) const noexcept {
-  return bind(position, LobeSet());
+  static constexpr LobeSet kNoLobes;
+  return bind(position, kNoLobes);
 }
 
 GuidingDistribution Field::bind(const Imath::V3f& position, const LobeSet& lobes) const noexcept {

@@ -141,6 +141,7 @@ FrozenTree freeze(const DirectionalQuadtree& learned, CompensationForm form, flo
   std::vector<LearnedNode> nodes = learned.nodes();
   LeafCells cells = leafCells(learned);
   FrozenTree frozen{};
+  const std::vector<double> uncompensated = cells.mass;
   const CompensationResult solved =
       compensate(cells.mass, cells.bsdf.empty() ? cells.area : cells.bsdf, assumedFraction, form, cells.mass);
   if (solved.empty) return frozen;
@@ -151,7 +152,7 @@ FrozenTree freeze(const DirectionalQuadtree& learned, CompensationForm form, flo
   frozen.tree.nodeCount = std::uint32_t(frozen.nodes.size());
   double empty = 0;
   for (std::size_t j = 0; j < cells.mass.size(); ++j)
-    if (!(cells.mass[j] > 0)) empty += cells.area[j];
+    if (uncompensated[j] > 0 && !(cells.mass[j] > 0)) empty += cells.area[j];
   frozen.tree.emptyArea = float(empty);
   return frozen;
 }

@@ -40,7 +40,7 @@ class GuidingDensity {
   struct Tree {
     Grid grid{};
     float bsdfSamplingFraction = 1;
-    float emptyArea = 0;          ///< share of the sphere where the density is zero
+    float emptyArea = 0;          ///< share of the sphere that compensation emptied
     std::uint32_t firstNode = 0;  ///< in the array of all trees' nodes
     std::uint32_t nodeCount = 0;
     std::uint64_t subdivided =

@@ -12,6 +12,7 @@ namespace guiding {
 namespace {
 
 constexpr double kMaxLogit = 2.944438979166440;  // of kMaxFraction; beyond it float fractions stop moving
+constexpr double kLargestWeight = 1e100;         // of a record; squares and sums of such weights are finite
 
 double sigmoid(double x) noexcept {
   return 1 / (1 + std::exp(-x));
@@ -25,7 +26,6 @@ void AdamFraction::startAt(float fraction) noexcept {
 
 void AdamFraction::learn(std::span<const FractionRecord> records, FractionLoss loss) noexcept {
   constexpr double kRate = 0.01, kBeta1 = 0.9, kBeta2 = 0.999, kRegularisation = 0.01;
-  constexpr double kLargestWeight = 1e100;
   constexpr std::uint32_t kBatch = 2;
   for (const FractionRecord& r : records) {
     if (!(r.product > 0)) continue;
@@ -78,6 +78,7 @@ void FractionSlopes::learn(std::span<const FractionRecord> records, FractionLoss
       term *= double(r.product) / __builtin_convertvector(mixture, Double8);
       w *= w;
     }
+    if (!(w < kLargestWeight) || !std::isfinite(term[0])) continue;  // it would stay in the sums for ever
     sum -= term;
     weight += w;
     squaredWeight += w * w;

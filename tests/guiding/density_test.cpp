@@ -69,7 +69,16 @@ TEST_CASE("Quarters compensated against a learned BSDF by hand") {
   CHECK(clip.pdf(directionIn(DirectionMap::Octahedral, 0.7f, 0.7f)) * kSphere == Approx(4 * 0.075 / 0.65));
 }
 
-TEST_CASE("A target that is the BSDF's own density leaves nothing to guide") {
+TEST_CASE("Only what compensation took counts as emptied") {
+  DirectionalQuadtree tree;
+  tree.nodes()[0].sum = {4, 0, 0, 0};
+  CHECK(FrozenQuadtree(DirectionMap::Cylinder, tree).tree().emptyArea == 0);
+  tree.nodes()[0].sum = {4, 0, 0, 0.1};
+  CHECK(FrozenQuadtree(DirectionMap::Cylinder, tree, CompensationForm::WaterFilling, 0.6f).tree().emptyArea ==
+        Approx(0.25));
+}
+
+TEST_CASE("A target that is the BSDF's own density keeps its shape") {
   DirectionalQuadtree tree;
   tree.learnBsdf();
   tree.nodes()[0].sum = {4, 1, 2, 1};

@@ -215,6 +215,13 @@ TEST_CASE("Maps that leave nothing to sample give an empty table") {
   CHECK(integral(uniform) == Approx(1).epsilon(1e-4));
 }
 
+TEST_CASE("A map at the end of float's range is sharpened within it") {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  const test::Map map{{EnvironmentMapping::LatLong, 2, 2}, {kMost, kMost / 10, kMost, kMost / 10}};
+  const EnvironmentTable table = tableOf(map, EnvironmentCompensation::WaterFilling);
+  CHECK(integral(table) == Approx(1).epsilon(1e-4));
+}
+
 TEST_CASE("Maps of all sizes and ranges, and the corners of the random square") {
   const float least = std::numeric_limits<float>::denorm_min(), most = std::numeric_limits<float>::max();
   for (const auto mapping : kAllMappings)

@@ -142,14 +142,31 @@ TEST_CASE("One absurd record does not poison a leaf") {
   for (const FractionLoss loss : kBothLosses)
     for (const FractionRecord& absurd :
          {FractionRecord{kHuge, kTiny, kTiny, kTiny}, FractionRecord{kHuge, kTiny, 0, kHuge},
-          FractionRecord{kTiny, kHuge, kHuge, 0}, FractionRecord{1, kTiny, 0, 0}}) {
+          FractionRecord{kTiny, kHuge, kHuge, 0}, FractionRecord{1, kTiny, 0, 0}, FractionRecord{1, kTiny, kTiny, 0}}) {
       std::vector<FractionRecord> records = kWorlds[0].records(0.5f, 50'000, 5);
       records.insert(records.begin() + 100, absurd);
       const float fit = fitted(records, loss), descent = descended(records, loss);
       CAPTURE(int(loss), absurd.product, absurd.pdf);
       CHECK((fit >= kMinFraction && fit <= kMaxFraction));
       CHECK((descent >= kMinFraction && descent <= kMaxFraction));
+
+      FractionSlopes slopes;
+      slopes.learn(records, loss);
+      for (const double slope : slopes.slope) CHECK(std::isfinite(slope));
+      CHECK(std::isfinite(slopes.weight));
+      CHECK(std::isfinite(slopes.squaredWeight));
     }
+}
+
+TEST_CASE("A record beyond the range of double leaves the fit as it was") {
+  for (const auto& [loss, absurd] : {std::pair(FractionLoss::Variance, FractionRecord{3e38f, 1e-45f, 1e-45f, 1e-45f}),
+                                     std::pair(FractionLoss::KullbackLeibler, FractionRecord{1, 1e-45f, 1e-45f, 0})}) {
+    std::vector<FractionRecord> records = kWorlds[0].records(0.5f, 50'000, 5);
+    const float before = fitted(records, loss);
+    records.insert(records.begin() + 100, absurd);
+    CAPTURE(int(loss));
+    CHECK(fitted(records, loss) == before);
+  }
 }
 
 TEST_CASE("Slopes of two halves add up to those of the whole") {

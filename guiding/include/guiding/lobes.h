@@ -3,7 +3,6 @@
 #include <ImathVec.h>
 
 #include <array>
-#include <cassert>
 #include <cstdint>
 #include <span>
 
@@ -39,7 +38,7 @@ class LobeSet {
   std::span<const Lobe> lobes() const noexcept { return {m_lobes.data(), std::size_t(m_count)}; }
 
  private:
-  std::array<Lobe, kCapacity> m_lobes;
+  std::array<Lobe, kCapacity> m_lobes{};
   int m_count = 0;
 };
 
