@@ -10,12 +10,40 @@ double DirectionalQuadtree::build() {
     Node& node = m_nodes[i];
     for (int c = 0; c < 4; ++c) {
       if (node.links.isLeaf(c)) continue;
-      const auto& s = m_nodes[node.links.childIndex(c)].sum;
-      node.sum[c] = (s[0] + s[1]) + (s[2] + s[3]);
+      const std::uint32_t child = node.links.childIndex(c);
+      node.sum[c] = totalOf(m_nodes[child].sum);
+      if (learnsBsdf()) m_bsdf[i][c] = totalOf(m_bsdf[child]);
     }
   }
-  const auto& s = m_nodes[0].sum;
-  return (s[0] + s[1]) + (s[2] + s[3]);
+  return flux();
+}
+
+void DirectionalQuadtree::add(const DirectionalQuadtree& other, double fluxFactor, double bsdfFactor) noexcept {
+  addBelow(0, other, 0, fluxFactor, bsdfFactor);
+}
+
+void DirectionalQuadtree::addBelow(std::uint32_t node, const DirectionalQuadtree& other, std::uint32_t from,
+                                   double fluxFactor, double bsdfFactor) noexcept {
+  const QuadtreeLinks &links = m_nodes[node].links, &fromLinks = other.m_nodes[from].links;
+  for (int c = 0; c < 4; ++c) {
+    if (!links.isLeaf(c) && !fromLinks.isLeaf(c)) {
+      addBelow(links.childIndex(c), other, fromLinks.childIndex(c), fluxFactor, bsdfFactor);
+      continue;
+    }
+    const Learned cell = other.cellOf(from, c);
+    addToCell(node, c, {cell.flux * fluxFactor, cell.bsdf * bsdfFactor});
+  }
+}
+
+/// What falls on a subdivided cell is spread evenly below it.
+void DirectionalQuadtree::addToCell(std::uint32_t node, int c, const Learned& learned) noexcept {
+  const QuadtreeLinks& links = m_nodes[node].links;
+  if (links.isLeaf(c)) {
+    m_nodes[node].sum[c] += learned.flux;
+    if (learnsBsdf()) m_bsdf[node][c] += learned.bsdf;
+    return;
+  }
+  for (int below = 0; below < 4; ++below) addToCell(links.childIndex(c), below, {learned.flux / 4, learned.bsdf / 4});
 }
 
 DirectionalQuadtree DirectionalQuadtree::refined(double total, double threshold, int maxDepth) const {

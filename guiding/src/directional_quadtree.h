@@ -67,12 +67,20 @@ class DirectionalQuadtree {
       index = links.childIndex(cell);
     }
   }
-  /// By node, for leaf cells; empty unless learned.
+  /// By node, as the flux; empty unless learned.
   const std::vector<std::array<double, 4>>& bsdfSums() const noexcept { return m_bsdf; }
   std::vector<std::array<double, 4>>& bsdfSums() noexcept { return m_bsdf; }
 
-  /// Sums the leaf cells into their parents and returns the total.
+  /// Sums the leaf cells into their parents and returns the total flux.
   double build();
+  /// All flux, and all of the BSDF's density; require build().
+  double flux() const noexcept { return totalOf(m_nodes[0].sum); }
+  double bsdf() const noexcept { return learnsBsdf() ? totalOf(m_bsdf[0]) : 0; }
+
+  /// Adds what another tree learned, times these factors, to the leaf cells: the sums of its finer cells, and of its
+  /// coarser ones what falls on each cell if they are evenly filled. Requires build() of the other tree, and of this
+  /// one afterwards.
+  void add(const DirectionalQuadtree& other, double fluxFactor, double bsdfFactor) noexcept;
 
   /// The tree to learn into next: cells with more than `threshold` of the total flux are subdivided, up to `maxDepth`;
   /// those with less are merged; below a former leaf the flux counts as evenly spread [Müller et al. 2017, Sec. 3.2].
@@ -93,8 +101,21 @@ class DirectionalQuadtree {
   }
 
  private:
-  std::vector<Node> m_nodes;                  ///< root first, parents before children
-  std::vector<std::array<double, 4>> m_bsdf;  ///< sums of the BSDF's density over the density of the samples
+  /// Of one cell.
+  struct Learned {
+    double flux, bsdf;
+  };
+  static double totalOf(const std::array<double, 4>& sum) noexcept { return (sum[0] + sum[1]) + (sum[2] + sum[3]); }
+  Learned cellOf(std::uint32_t node, int c) const noexcept {
+    return {m_nodes[node].sum[c], learnsBsdf() ? m_bsdf[node][c] : 0};
+  }
+  void addToCell(std::uint32_t node, int c, const Learned& learned) noexcept;
+  void addBelow(std::uint32_t node, const DirectionalQuadtree& other, std::uint32_t from, double fluxFactor,
+                double bsdfFactor) noexcept;
+
+  std::vector<Node> m_nodes;  ///< root first, parents before children
+  std::vector<std::array<double, 4>>
+      m_bsdf;  ///< sums of the BSDF's density over the density of the samples; for all cells after build()
 };
 
 }  // namespace guiding

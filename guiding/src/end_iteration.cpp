@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "freeze.h"
+#include "join_neighbours.h"
 #include "parallel.h"
 #include "training.h"
 
@@ -28,9 +29,11 @@ void learnFraction(const SpatialLeaf& leaf, const FieldSettings& settings, Spati
 }
 
 /// The density of a leaf and the quadtree it learns into next. A leaf that learned nothing keeps its topology and
-/// offers no guide. Of `leaf` only sums of inner nodes change.
-FrozenLeaf freezeLeaf(SpatialLeaf& leaf, const FieldSettings& settings) {
-  const double total = leaf.building.build();
+/// offers no guide.
+FrozenLeaf freezeLeaf(const Field::State& state, const std::vector<Imath::V3f>& centres, std::uint32_t index) {
+  const FieldSettings& settings = state.settings;
+  const SpatialLeaf& leaf = state.leaves[index];
+  const double total = leaf.building.flux();
   FrozenLeaf frozen;
   learnFraction(leaf, settings, frozen.next);
   if (!(total > 0) || !std::isfinite(total)) {
@@ -43,9 +46,15 @@ FrozenLeaf freezeLeaf(SpatialLeaf& leaf, const FieldSettings& settings) {
   const float fraction = frozen.next.fraction;
   frozen.rests = settings.fractionMode == FractionMode::Fit && settings.minimalGain > 0 &&
                  leaf.slopes.gain(initialFraction(settings)) < settings.minimalGain;
-  if (fraction < 1) frozen.tree = freeze(leaf.building, form, fraction * settings.compensation.strength);
+  const auto freezeAndRefine = [&](const DirectionalQuadtree& learned) {
+    if (fraction < 1) frozen.tree = freeze(learned, form, fraction * settings.compensation.strength);
+    frozen.next.building = learned.refined(learned.flux(), settings.dTreeThreshold, settings.maxDTreeDepth);
+  };
+  if (settings.neighbourWeight > 0)
+    freezeAndRefine(joinNeighbours(state, centres, index));
+  else
+    freezeAndRefine(leaf.building);
   frozen.tree.tree.bsdfSamplingFraction = fraction;
-  frozen.next.building = leaf.building.refined(total, settings.dTreeThreshold, settings.maxDTreeDepth);
   frozen.next.largestRecord = settings.recordClip * total;
   return frozen;
 }
@@ -173,9 +182,12 @@ void become(Field::State& state, NextState&& next) noexcept {
 
 void endIteration(Field::State& state, double spp) {
   emptyBuildingTrees(state);
+  parallelFor(state.leaves.size(), 16, [&](std::size_t leaf) { state.leaves[leaf].building.build(); });
+  std::vector<Imath::V3f> centres;
+  if (state.settings.neighbourWeight > 0) centres = state.tree.leafCentres();
   std::vector<FrozenLeaf> frozen(state.leaves.size());
   parallelFor(frozen.size(), 1,
-              [&](std::size_t leaf) { frozen[leaf] = freezeLeaf(state.leaves[leaf], state.settings); });
+              [&](std::size_t leaf) { frozen[leaf] = freezeLeaf(state, centres, std::uint32_t(leaf)); });
   NextState next(state.tree);
   publish(next, frozen);
   std::vector<int> levels = splitLevels(state, spp);

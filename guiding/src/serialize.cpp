@@ -21,6 +21,7 @@ void putSettings(ByteWriter& out, const FieldSettings& s) {
   out.put(s.bsdfSamplingFraction);
   out.put(std::uint32_t(s.fractionMode));
   out.put(std::uint32_t(s.fractionLoss));
+  out.put(s.neighbourWeight);
   out.put(s.recordClip);
   out.put(s.minimalGain);
   out.put(std::uint32_t(s.compensation.form));
@@ -48,6 +49,7 @@ bool getSettings(ByteReader& in, FieldSettings& s) {
   s.bsdfSamplingFraction = in.get<float>();
   ok &= getEnum(in, s.fractionMode, FractionMode::Fit);
   ok &= getEnum(in, s.fractionLoss, FractionLoss::Variance);
+  s.neighbourWeight = in.get<float>();
   s.recordClip = in.get<float>();
   s.minimalGain = in.get<float>();
   ok &= getEnum(in, s.compensation.form, CompensationForm::ClipRenormalise);
@@ -103,8 +105,9 @@ void putLeaf(ByteWriter& out, const SpatialLeaf& leaf) {
     putLinks(out, node.links);
   }
   out.put(std::uint8_t(leaf.building.learnsBsdf()));
-  for (const auto& sums : leaf.building.bsdfSums())
-    for (const double sum : sums) out.put(sum);
+  for (std::size_t i = 0; i < leaf.building.bsdfSums().size(); ++i)
+    for (int c = 0; c < 4; ++c)
+      out.put(leaf.building.nodes()[i].links.isLeaf(c) ? leaf.building.bsdfSums()[i][c] : 0.0);
 }
 
 constexpr std::size_t kLeafBytes = 4 + 8 + 8 + 4 + 40 + 80 + 8 + 1, kBuildingNodeBytes = 37;

@@ -1,5 +1,7 @@
 #include "guiding/settings.h"
 
+#include <cmath>
+
 namespace guiding {
 
 namespace {
@@ -24,8 +26,9 @@ FieldSettings FieldSettings::production2019() {
 
 FieldSettings FieldSettings::recommended() {
   FieldSettings s = production2019();
-  s.sTreeThreshold = 500;
+  s.sTreeThreshold = 250;
   s.dTreeThreshold = 0.02f;
+  s.neighbourWeight = 0.5f;
   s.target = LearningTarget::Product;
   s.compensation = {CompensationForm::WaterFilling, 0.5f};
   return s;
@@ -35,6 +38,7 @@ FieldSettings FieldSettings::boundProduct() {
   FieldSettings s = production2019();
   s.sTreeThreshold = 500;
   s.dTreeThreshold = 0.02f;
+  s.neighbourWeight = 0.5f;
   s.directionMap = DirectionMap::Octahedral;
   s.fractionMode = FractionMode::Fit;
   s.product = true;
@@ -63,6 +67,8 @@ Status FieldSettings::validate() const {
   if (maxDTreeDepth < 1 || maxDTreeDepth > 20) return outOfRange("maxDTreeDepth must lie in [1, 20]");
   if (!(bsdfSamplingFraction > 0 && bsdfSamplingFraction <= 1))
     return outOfRange("bsdfSamplingFraction must lie in (0, 1]");
+  if (!(neighbourWeight >= 0 && std::isfinite(neighbourWeight)))
+    return outOfRange("neighbourWeight must be finite and not negative");
   if (!(recordClip >= 0)) return outOfRange("recordClip must not be negative");
   if (!(minimalGain >= 0)) return outOfRange("minimalGain must not be negative");
   if (!(compensation.strength >= 0 && compensation.strength <= 1))

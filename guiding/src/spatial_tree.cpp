@@ -23,6 +23,26 @@ Imath::V3f SpatialTree::leafSize(std::uint32_t leaf) const noexcept {
   return size;
 }
 
+std::vector<Imath::V3f> SpatialTree::leafCentres() const {
+  std::vector<Imath::V3f> centres(m_leafCount);
+  centresBelow(0, 0, m_bounds, centres);
+  return centres;
+}
+
+void SpatialTree::centresBelow(std::uint32_t node, int depth, const Imath::Box3f& box,
+                               std::vector<Imath::V3f>& centres) const {
+  const std::uint32_t word = m_nodes[node];
+  if (word & kLeafBit) {
+    centres[word & ~kLeafBit] = box.center();
+    return;
+  }
+  const int axis = depth % 3;
+  Imath::Box3f lower = box, upper = box;
+  lower.max[axis] = upper.min[axis] = box.center()[axis];
+  centresBelow(word, depth + 1, lower, centres);
+  centresBelow(word + 1, depth + 1, upper, centres);
+}
+
 int SpatialTree::maxDepth() const noexcept {
   return *std::max_element(m_depths.begin(), m_depths.end());
 }

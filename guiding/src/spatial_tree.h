@@ -30,6 +30,8 @@ class SpatialTree {
 
   /// Edge lengths of a leaf.
   Imath::V3f leafSize(std::uint32_t leaf) const noexcept;
+  /// The middle of every leaf.
+  std::vector<Imath::V3f> leafCentres() const;
 
   bool contains(const Imath::V3f& position) const noexcept { return m_bounds.intersects(position); }
   const Imath::Box3f& bounds() const noexcept { return m_bounds; }  ///< the cube
@@ -59,6 +61,7 @@ class SpatialTree {
   std::uint64_t codeOf(const Imath::V3f& position) const noexcept;
   void index();
   void indexBelow(std::uint32_t node, int depth, std::uint32_t prefix);
+  void centresBelow(std::uint32_t node, int depth, const Imath::Box3f& box, std::vector<Imath::V3f>& centres) const;
 
   Imath::Box3f m_bounds;
   float m_scale;  ///< cells per unit length at full depth

@@ -43,6 +43,7 @@ void visitMembers(Is<guiding::FieldSettings> auto& s, auto&& visitor) {
   visitor("bsdfSamplingFraction", s.bsdfSamplingFraction);
   visitor("fractionMode", s.fractionMode);
   visitor("fractionLoss", s.fractionLoss);
+  visitor("neighbourWeight", s.neighbourWeight);
   visitor("minimalGain", s.minimalGain);
   visitor("recordClip", s.recordClip);
   visitor("compensation", s.compensation);

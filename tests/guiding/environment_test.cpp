@@ -218,7 +218,7 @@ TEST_CASE("Maps that leave nothing to sample give an empty table") {
 TEST_CASE("A map at the end of float's range is sharpened within it") {
   constexpr float kMost = std::numeric_limits<float>::max();
   const test::Map map{{EnvironmentMapping::LatLong, 2, 2}, {kMost, kMost / 10, kMost, kMost / 10}};
-  const EnvironmentTable table = tableOf(map, EnvironmentCompensation::WaterFilling);
+  const EnvironmentTable table = tableOf(map, {EnvironmentCompensation::WaterFilling, 0.5f});
   CHECK(integral(table) == Approx(1).epsilon(1e-4));
 }
 

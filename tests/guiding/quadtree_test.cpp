@@ -129,3 +129,31 @@ TEST_CASE("Links that are none are noticed") {
   CHECK(spoilt([](Nodes& n) { n.pop_back(); }));
   CHECK(spoilt([](Nodes& n) { n.clear(); }));
 }
+
+TEST_CASE("What another tree learned is added to the leaf cells: finer cells as sums, coarser ones evenly") {
+  // This tree: four cells, the first in quarters. The other: four cells, the last in quarters.
+  const auto withQuarters = [](int quartered) {
+    DirectionalQuadtree tree;
+    tree.nodes()[0].sum = {1, 1, 1, 1};
+    tree.nodes()[0].sum[std::size_t(quartered)] = 7;
+    tree = tree.refined(tree.build(), 0.5, 2);
+    tree.clear();
+    tree.learnBsdf();
+    return tree;
+  };
+  DirectionalQuadtree tree = withQuarters(0), other = withQuarters(3);
+  tree.nodes()[0].sum = {0, 1, 1, 1};
+  tree.nodes()[1].sum = {1, 2, 3, 4};
+  other.nodes()[0].sum = {8, 2, 3, 0};
+  other.nodes()[1].sum = {1, 1, 1, 2};
+  other.bsdfSums()[0] = {4, 0, 0, 0};
+  other.bsdfSums()[1] = {0, 0, 0, 1};
+  CHECK(other.build() == 18);
+  CHECK(other.bsdf() == 5);
+  tree.add(other, 0.5, 2);
+  CHECK(tree.build() == 22);
+  CHECK(tree.nodes()[0].sum == std::array<double, 4>{14, 2, 2.5, 3.5});
+  CHECK(tree.nodes()[1].sum == std::array<double, 4>{2, 3, 4, 5});
+  CHECK(tree.bsdfSums()[0] == std::array<double, 4>{8, 0, 0, 2});
+  CHECK(tree.bsdfSums()[1] == std::array<double, 4>{2, 2, 2, 2});
+}

@@ -28,6 +28,7 @@ class RandomCases {
     s.compensation = {CompensationForm(below(3)), below(3) == 0 ? 1.0f : uniform()};
     s.target = LearningTarget(below(2));
     s.product = s.target == LearningTarget::Radiance && below(2) == 0;
+    s.neighbourWeight = below(2) == 0 ? 0 : uniform();
     s.recordClip = below(2) == 0 ? 0 : 0.1f * uniform();
     s.minimalGain = below(2) == 0 ? 0 : 0.1f * uniform();
     return s;

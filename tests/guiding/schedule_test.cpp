@@ -353,7 +353,7 @@ TEST_CASE("Guiding that does not pay is left after its trial, and guiding that p
 
 TEST_CASE("A trial that guiding wins neither ends training nor weighs upon other iterations") {
   for (const SampleCombination combination : {SampleCombination::Automatic, SampleCombination::InverseVariance}) {
-    ScheduleSettings s{4, combination, 10, 1};
+    ScheduleSettings s{4, combination, 20, 1};
     s.trialShare = 0.1f;
     TrainingSchedule schedule(s, 10'000, 0);
     // A sample's variance halves from iteration to iteration, as long as training goes on; the trial's is far worse.

@@ -44,6 +44,8 @@ TEST_CASE("Every setting out of its range is refused by name") {
              {0.0f, 1.0001f, -0.5f, nan, inf});
   checkRange("compensation.strength", [](FieldSettings& s, float x) { s.compensation.strength = x; }, {0.0f, 1.0f},
              {-0.01f, 1.01f, nan, inf});
+  checkRange("neighbourWeight", [](FieldSettings& s, float x) { s.neighbourWeight = x; }, {0.0f, 2.0f},
+             {-0.01f, nan, inf});
   checkRange("recordClip", [](FieldSettings& s, float x) { s.recordClip = x; }, {0.0f, 2.0f}, {-0.01f, nan});
   checkRange("minimalGain", [](FieldSettings& s, float x) { s.minimalGain = x; }, {0.0f, 10.0f}, {-0.01f, nan});
   checkRange("directionMap", [](FieldSettings& s, int x) { s.directionMap = DirectionMap(x); }, {0, 1}, {-1, 2});
@@ -69,6 +71,7 @@ TEST_CASE("The preset of the paper is the paper") {
   CHECK(s.fractionMode == FractionMode::Fixed);
   CHECK(s.compensation.form == CompensationForm::None);
   CHECK(!s.product);
+  CHECK(s.neighbourWeight == 0);
   CHECK(s.recordClip == 0);
   CHECK(s.minimalGain == 0);
   CHECK(s.maxMemoryBytes == 0);
@@ -84,6 +87,7 @@ TEST_CASE("The preset of 2019 is what its author recommends") {
   CHECK(s.fractionLoss == FractionLoss::KullbackLeibler);
   CHECK(s.directionMap == DirectionMap::Cylinder);
   CHECK(s.compensation.form == CompensationForm::None);
+  CHECK(s.neighbourWeight == 0);
   CHECK(!s.product);
 }
 

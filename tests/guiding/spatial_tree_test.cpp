@@ -124,6 +124,7 @@ TEST_CASE("Look-up finds the box that contains the point") {
 TEST_CASE("In the unit cube look-up is exact, on borders too") {
   const SpatialTree tree = grown(Imath::Box3f({0, 0, 0}, {1, 1, 1}), 6, 5);
   const std::vector<Leaf> leaves = leavesOf(tree);
+  const std::vector<Imath::V3f> centres = tree.leafCentres();
   int wrong = 0;
   for (const Leaf& leaf : leaves) {
     const Imath::V3f corner(leaf.min);
@@ -131,6 +132,7 @@ TEST_CASE("In the unit cube look-up is exact, on borders too") {
     const Imath::V3d last = leaf.max - Imath::V3d(0x1p-21);
     wrong += tree.leafAt(Imath::V3f(last)) != leaf.index;
     wrong += Imath::V3d(tree.leafSize(tree.leafAt(corner))) != leaf.max - leaf.min;
+    wrong += Imath::V3d(centres[leaf.index]) != (leaf.min + leaf.max) / 2;
   }
   CHECK(wrong == 0);
 }

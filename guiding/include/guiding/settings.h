@@ -82,6 +82,11 @@ struct FieldSettings {
   SpatialFilter spatialFilter = SpatialFilter::Nearest;
   DirectionalFilter directionalFilter = DirectionalFilter::Nearest;
 
+  /// What a spatial leaf learned is joined by what the leaves beside its six faces learned, each with this weight
+  /// beside 1 of its own, and less where it has fewer samples. Their shapes over the directions are joined, not their
+  /// levels. Range: >= 0, finite; 0: each leaf for itself.
+  float neighbourWeight = 0;
+
   /// Probability of sampling the BSDF rather than the guide. Range: (0, 1]; 1: no guide. Where it is learned, what
   /// learning starts from (but within [0.05, 0.95], as what it learns).
   float bsdfSamplingFraction = 0.5f;

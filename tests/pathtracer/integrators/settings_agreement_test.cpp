@@ -21,6 +21,7 @@ enum Factor {
   kMap,
   kSpatialFilter,
   kDirectionalFilter,
+  kNeighbours,
   kFraction,
   kLoss,
   kClip,
@@ -32,7 +33,7 @@ enum Factor {
   kLightSampling,
   kFactors
 };
-constexpr std::array<int, kFactors> kValues{3, 4, 2, 2, 2, 3, 2, 2, 2, 2, 3, 4, 2, 2};
+constexpr std::array<int, kFactors> kValues{3, 4, 2, 2, 2, 2, 3, 2, 2, 2, 2, 3, 4, 2, 2};
 using Choice = std::array<int, kFactors>;
 /// Two settings and their values.
 using Pair = std::tuple<int, int, int, int>;
@@ -88,6 +89,7 @@ FieldSettings fieldOf(const Choice& choice) {
   s.directionalFilter = DirectionalFilter(choice[kDirectionalFilter]);
   s.fractionMode = FractionMode(choice[kFraction]);
   s.fractionLoss = FractionLoss(choice[kLoss]);
+  s.neighbourWeight = choice[kNeighbours] == 1 ? 0.5f : 0.0f;
   s.recordClip = choice[kClip] == 1 ? 0.01f : 0.0f;
   s.minimalGain = choice[kGain] == 1 ? 0.02f : 0.0f;
   return s;
