@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/options.h"
 #include "core/error.h"
 #include "core/replace_file.h"
 #include "film/image_io.h"
@@ -40,6 +41,8 @@ void printErrors(const ImageError& error) {
 
 void compare(const CompareOptions& options) {
   checkErrorPicture(options.errorPicture);
+  requireDistinct({{"-o", options.errorPicture}},
+                  {{"the picture", options.image}, {"the reference", options.reference}});
   const Image image = readImage(options.image);
   const Image reference = readImage(options.reference);
   if (image.width != reference.width || image.height != reference.height)

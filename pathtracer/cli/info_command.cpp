@@ -41,10 +41,12 @@ void printScene(const InfoOptions& options) {
   }
   const SceneCounts& counts = scene.counts();
   const FilmDescription& film = description.film;
-  const Vec3 lower = scene.bounds().min, upper = scene.bounds().max;
+  // Where the scene's file has them, not where they were moved to for the sake of precision.
+  const Vec3 lower(scene.origin() + Imath::V3d(scene.bounds().min)),
+      upper(scene.origin() + Imath::V3d(scene.bounds().max));
   fmt::print("{:<12} {}\n", "scene", description.name);
   fmt::print("{:<12} {}x{}, {} samples per pixel\n", "picture", film.width, film.height, description.spp);
-  fmt::print("{:<12} max depth {}, roulette from {}\n", "paths", description.integrator.maxDepth,
+  fmt::print("{:<12} max depth {}, roulette after {}\n", "paths", description.integrator.maxDepth,
              description.integrator.rrDepth);
   fmt::print("{:<12} {} triangles, {} other primitives, {} instances\n", "geometry", counts.triangles,
              counts.primitives - counts.triangles, counts.instances);
@@ -70,10 +72,14 @@ void checkPoint(const InfoOptions& options) {
 
 /// The density learned at a point and the one sampled there, side by side.
 void drawDensities(const guiding::Field& field, const InfoOptions& options) {
-  const Vec3 position(options.at[0], options.at[1], options.at[2]);
+  const Vec3 position(options.at[0], options.at[1], options.at[2]), &lower = field.bounds().min,
+                                                                    &upper = field.bounds().max;
   if (!field.bounds().intersects(position))
-    fmt::print(stderr, "warning: ({}, {}, {}) lies outside the field's bounds; the nearest leaf is shown\n", position.x,
-               position.y, position.z);
+    fmt::print(
+        stderr,
+        "warning: ({}, {}, {}) lies outside the field's bounds, ({}, {}, {}) to ({}, {}, {}); the nearest leaf is "
+        "shown\n",
+        position.x, position.y, position.z, lower.x, lower.y, lower.z, upper.x, upper.y, upper.z);
   const guiding::GuidingDistribution guide = field.bind(position);
   writePng(options.picture, densityPicture([&](const Vec3& wi) { return field.learnedPdf(position, wi); },
                                            [&](const Vec3& wi) { return guide ? guide.pdf(wi) : 0.0f; }));

@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
   } catch (const pt::InputError& error) {
     return fail(kBadInput, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(kFailedAtWork, "out of memory; try a lower --resolution");
+    return fail(kFailedAtWork, "out of memory; a smaller picture needs less");
   } catch (const std::exception& error) {
     return fail(kFailedAtWork, error.what());
   }

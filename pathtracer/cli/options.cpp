@@ -108,8 +108,8 @@ std::optional<GuidingSettings> guidingSettings(const SamplingOptions& options) {
   std::optional<GuidingSettings> settings = findGuiding(guidingName(options));
   if (options.compensation.empty()) return settings;
   if (!settings)
-    throw InputError(
-        fmt::format("--compensation {}: there is nothing to compensate with --guiding none", options.compensation));
+    throw InputError(fmt::format("--compensation {}: there is nothing to compensate with {}", options.compensation,
+                                 whatGuidesNot(options)));
   if (settings->openPgl) throw InputError(fmt::format("--compensation {}: Open PGL has none", options.compensation));
   settings->field.compensation = parseCompensation(options.compensation);
   return settings;
@@ -171,7 +171,8 @@ void addOptions(CLI::App& command, SceneOptions& options) {
   command.add_option("--max-depth", options.maxDepth,
                      "Longest path in edges; 1: emission only, -1: unbounded (default: the scene's)");
   command.add_option("--rr-depth", options.rrDepth,
-                     "Edges from which Russian roulette may end a path (default: the scene's)");
+                     "Edges after which classic Russian roulette may end a path (default: the scene's); learned "
+                     "roulette does not wait for them");
   command.add_flag("--skip-unsupported", options.skipUnsupported,
                    "Leave out what is not supported, and list it, instead of failing");
   command.add_option("-D", options.variables, "Sets a variable of a Mitsuba scene: -D name=value (may be repeated)")
@@ -244,6 +245,20 @@ std::string guidingName(const SamplingOptions& options) {
   return options.integrator.isDirect() ? "none" : "recommended";
 }
 
+void requireFieldAlone(const SamplingOptions& options) {
+  if (options.field.empty()) return;
+  const std::string file = options.field.string();
+  if (guidingName(options) == "none")
+    throw InputError(fmt::format("--field {}: a trained field is of no use with {}", file, whatGuidesNot(options)));
+  if (!options.guiding.empty())
+    throw InputError(
+        fmt::format("--field {}: guides as it was trained; leave --guiding {} out", file, options.guiding));
+}
+
+const char* whatGuidesNot(const SamplingOptions& options) {
+  return options.integrator.isDirect() ? "--integrator direct" : "--guiding none";
+}
+
 void requireDistinct(const std::vector<OutputFile>& outputs, const SceneOptions& scene,
                      const SamplingOptions& sampling) {
   requireDistinct(outputs, {{"the scene", scene.file},
@@ -305,11 +320,6 @@ RenderSettings renderSettings(const SamplingOptions& options, const SceneDescrip
                                     : settings.direct         ? "classic"
                                                               : "adjoint");
   settings.guiding = guidingSettings(options);
-  if (!options.field.empty() && !settings.guiding)
-    throw InputError(
-        fmt::format("--field {}: a trained field is of no use with --guiding none", options.field.string()));
-  if (!options.field.empty() && settings.guiding->openPgl)
-    throw InputError(fmt::format("--field {}: Open PGL cannot guide with it", options.field.string()));
   return settings;
 }
 

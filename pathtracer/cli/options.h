@@ -50,6 +50,10 @@ void addOptions(CLI::App& command, IntegratorOptions& options);
 
 /// The preset or settings file that holds.
 std::string guidingName(const SamplingOptions& options);
+/// Throws InputError if there are options beside --field that it cannot go with.
+void requireFieldAlone(const SamplingOptions& options);
+/// The option that leaves guiding out, for messages.
+const char* whatGuidesNot(const SamplingOptions& options);
 
 /// An option that names a file to be written, and the file.
 struct OutputFile {

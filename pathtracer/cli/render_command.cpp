@@ -125,7 +125,7 @@ void renderPicture(RenderOptions options) {
   fillOutputNames(options);
   checkOutputs(options);
   if (!options.saveField.empty() && guidingName(options.sampling) == "none")
-    throw InputError("--save-field: there is no field to save with --guiding none");
+    throw InputError(fmt::format("--save-field: there is no field to save with {}", whatGuidesNot(options.sampling)));
   const AovSelection aovs = parseAovs(options.aovs);
   RenderJob job = prepareJob(options.scene, options.sampling);
   if (!options.saveField.empty()) requireSaveable(job);

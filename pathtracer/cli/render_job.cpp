@@ -29,6 +29,7 @@ void tellAbout(const RenderJob& job) {
 
 RenderJob prepareJob(const SceneOptions& sceneOptions, const SamplingOptions& samplingOptions) {
   RenderJob job;
+  requireFieldAlone(samplingOptions);
   if (!samplingOptions.field.empty()) job.trainedField = loadField(samplingOptions.field);
   const RenderClock loading;
   job.description = loadDescription(sceneOptions);

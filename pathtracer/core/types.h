@@ -36,6 +36,12 @@ inline float maxComponent(const Spectrum& c) {
 inline bool isBlack(const Spectrum& c) {
   return c.x == 0 && c.y == 0 && c.z == 0;
 }
+/// Whether a normal says where it points; those of meshes may be zero.
+inline bool isUsableNormal(const Vec3& n) {
+  const float length2 = n.length2();
+  return length2 > 0 && std::isfinite(length2);
+}
+
 inline bool isFinite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }

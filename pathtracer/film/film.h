@@ -35,9 +35,9 @@ class Film {
   void add(int x, int y, const Spectrum& radiance) noexcept;
 
   /// Adds what the same sample tells of the second moment that the pixel would have without a guide
-  /// (PathWorker::unguidedSquare).
+  /// (PathWorker::unguidedSquare); nothing if that is not finite.
   void addUnguidedSquare(int x, int y, double square) noexcept {
-    m_pixels[std::size_t(y) * m_width + x].unguided2 += square;
+    if (std::isfinite(square)) m_pixels[std::size_t(y) * m_width + x].unguided2 += square;
   }
 
   /// The samples of a pixel are stratified together, in runs that endReplicate() ends. What they vary by from sample to

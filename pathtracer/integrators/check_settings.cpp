@@ -36,7 +36,7 @@ void checkPath(const IntegratorDescription& path) {
         fmt::format("maxDepth {} is impossible: use -1 (unbounded) or at least 1 (emission only)", path.maxDepth));
   if (path.rrDepth < 1)
     throw InputError(
-        fmt::format("rrDepth {} is impossible: Russian roulette starts at depth 1 at the earliest", path.rrDepth));
+        fmt::format("rrDepth {} is impossible: Russian roulette starts after one edge at the earliest", path.rrDepth));
 }
 
 void checkDirect(const RenderSettings& settings) {

@@ -131,7 +131,7 @@ template <GuideSource Guides>
 bool GuidedPathLoop<Guides>::reflect(PathState& path, const SurfaceInteraction& si, Sampler& sampler,
                                      PathWorker& worker, Ray& ray) const noexcept {
   const bool hasSmooth = si.material->traits().hasSmooth;
-  if (hasSmooth) path.previous = m_scene.receiver(si);
+  if (m_nee && hasSmooth) path.previous = m_scene.receiver(si);
   if (worker.reflections && hasSmooth) worker.reflectionRecorder.open(si.p, path.throughput);
 
   // The guide at this point
@@ -238,8 +238,12 @@ bool GuidedPathLoop<Guides>::scatter(PathState& path, const SurfaceInteraction& 
   ++worker.counters.scatterings;
   if (worker.reflections) worker.reflectionRecorder.addCost(RouletteCost::kScattering);
   if (guide) ++worker.counters.guidedScatterings;
-  if constexpr (Guides::kGuides)
-    if (draw.pdf > 0) path.likelihood *= draw.bsdfPdf / draw.pdf;
+  if constexpr (Guides::kGuides) {
+    if (draw.pdf > 0)
+      path.likelihood *= draw.bsdfPdf / draw.pdf;
+    else if (guide)  // a draw that failed, which one of the BSDF alone would have done too
+      path.likelihood *= uChoice < guide.bsdfSamplingFraction() ? 1 / guide.bsdfSamplingFraction() : 0;
+  }
   if (isBlack(draw.weight)) return false;
 
   path.throughput *= draw.weight;

@@ -25,7 +25,7 @@ class Roulette {
     float costPerVariance = 1;  ///< see guiding::efficientSplittingFactor
   };
 
-  /// Classic roulette by the throughput of BSDF sampling, from `rrDepth` on.
+  /// Classic roulette by the throughput of BSDF sampling, after `rrDepth` edges.
   explicit Roulette(int rrDepth) noexcept : m_rrDepth(rrDepth) {}
 
   /// Roulette and splitting by what is known, which must outlive it; classic where nothing is.

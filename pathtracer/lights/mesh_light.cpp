@@ -29,8 +29,10 @@ LightSample MeshLight::sampleDirect(const Vec3& p, double uPart, const Vec2& u) 
 
   const AreaSample sample{v0 + e1 * uv.x + e2 * uv.y, e1.cross(e2), maxAbs(v0) + m_mesh.maxEdge};
   Vec3 front = sample.normal;
-  if (m_mesh.hasNormals())
-    front = m_mesh.normal(a) * (1 - uv.x - uv.y) + m_mesh.normal(b) * uv.x + m_mesh.normal(c) * uv.y;
+  if (m_mesh.hasNormals()) {
+    const Vec3 smooth = m_mesh.normal(a) * (1 - uv.x - uv.y) + m_mesh.normal(b) * uv.x + m_mesh.normal(c) * uv.y;
+    if (isUsableNormal(smooth)) front = smooth;
+  }
   if (!(front.dot(p - sample.p) > 0)) return {};
   return toLightSample(p, sample, m_invArea, m_radiance(TexturePoint{m_mesh.uvAt({a, b, c}, uv)}));
 }

@@ -20,7 +20,7 @@ class Blend final : public Material {
     const float probability = isFirst ? 1 - weight : weight;
     const float uInside = std::min((isFirst ? uLobe - weight : uLobe) / probability, kOneMinusEpsilon);
     BsdfSample sample = (isFirst ? m_first : m_second).sample(si, wo, uInside, u);
-    if (!(sample.pdf > 0) || isBlack(sample.weight)) return {};
+    if (!(sample.pdf > 0)) return {};  // what is black in one half may not be in the other
     if (!sample.isDelta) return sampleOf(evaluate(si, weight, wo, sample.wi), sample.wi);
     sample.pdf *= probability;
     return sample;

@@ -20,8 +20,9 @@ using BsdfEvaluation = guiding::BsdfEvaluation<Spectrum>;
 /// A sampled direction, local frame.
 struct BsdfSample {
   Vec3 wi;
-  Spectrum weight{0.0f};  ///< BSDF * |cos| / pdf; black: the sample failed
-  float pdf = 0;  ///< per solid angle (the density evaluate() returns); for a delta lobe the probability of choosing it
+  Spectrum weight{0.0f};  ///< BSDF * |cos| / pdf
+  float pdf = 0;  ///< per solid angle (the density evaluate() returns); for a delta lobe the probability of choosing
+                  ///< it; 0: the sample failed
   bool isDelta = false;
 };
 

@@ -210,7 +210,9 @@ class SceneBuilder {
     std::erase(lights, &environment);
     if (lights.empty()) return;
     m_data.otherLights = LightSelection(lights);
-    m_data.otherLightsFactor = 1 / (1 - pmf);
+    std::size_t next = 0;
+    for (Surface& surface : m_data.surfaces)
+      if (surface.light) surface.otherLightPmf = m_data.otherLights.pmf(next++);
   }
 
   void addLight(const PointLight& light, const SourceLocation& source) {

@@ -101,9 +101,9 @@ LightSample Scene::sampleDirect(const LightReceiver& receiver, float uLight, con
 
 float Scene::pdfDirect(const LightReceiver& receiver, const SurfaceInteraction& hit) const noexcept {
   if (!hit.light) return 0;
-  const float pmf = m_data->surfaces[hit.shape].lightPmf;
-  return (receiver.density == kOtherLights ? pmf * m_data->otherLightsFactor : pmf) *
-         hit.light->pdfDirect(receiver.p, hit);
+  const Surface& surface = m_data->surfaces[hit.shape];
+  const float pmf = receiver.density == kOtherLights ? surface.otherLightPmf : surface.lightPmf;
+  return pmf * hit.light->pdfDirect(receiver.p, hit);
 }
 
 float Scene::pdfEnvironment(const LightReceiver& receiver, const Vec3& wi) const noexcept {

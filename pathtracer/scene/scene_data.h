@@ -38,8 +38,7 @@ struct SceneData {
   /// Estimates that are weighted against BSDF sampling choose among the other lights alone: nothing is left of the
   /// environment that light sampling does better.
   bool environmentLeftToBsdf = false;
-  LightSelection otherLights;   ///< set if environmentLeftToBsdf
-  float otherLightsFactor = 1;  ///< of their probabilities in `selection`
+  LightSelection otherLights;  ///< set if environmentLeftToBsdf
 
   std::size_t degenerateTriangles = 0;
   std::size_t blackEmitters = 0;

@@ -313,7 +313,7 @@ enum class SamplerKind { Independent, Sobol };
 
 struct IntegratorDescription {
   int maxDepth = -1;  ///< path length in edges, 1 is emission only; -1: unbounded
-  int rrDepth = 5;    ///< edges from which Russian roulette may end the path
+  int rrDepth = 5;    ///< edges after which classic Russian roulette may end the path
   bool strictNormals = false;
   bool hideEmitters = false;
 };

@@ -12,11 +12,6 @@ struct LocalHit {
   Vec2 uv{0, 0};
 };
 
-bool isUsable(const Vec3& normal) {
-  const float length2 = normal.length2();
-  return length2 > 0 && std::isfinite(length2);
-}
-
 /// Of unit length, also where its squares leave the range of floats.
 Vec3 unit(const Imath::V3d& v) {
   const Vec3 f(v);
@@ -46,7 +41,7 @@ LocalHit triangleHit(const Mesh& mesh, const AccelHit& hit) {
   const float w = 1 - hit.u - hit.v;
   if (mesh.hasNormals()) {
     const Vec3 ns = mesh.normal(a) * w + mesh.normal(b) * hit.u + mesh.normal(c) * hit.v;
-    if (isUsable(ns)) local.ns = unit(Imath::V3d(ns));
+    if (isUsableNormal(ns)) local.ns = unit(Imath::V3d(ns));
   }
   return local;
 }
@@ -146,7 +141,7 @@ void addTangents(const Surface& surface, const Instance* instance, const AccelHi
   si.dpdv = Vec3(t.dpdv);
   const Vec3& n = si.frame.n;
   const Vec3 s = si.dpdu - n * n.dot(si.dpdu);
-  if (!isFinite(si.dpdv) || !isUsable(s)) {
+  if (!isFinite(si.dpdv) || !isUsableNormal(s)) {
     si.dpdu = si.dpdv = Vec3(0, 0, 0);
     return;
   }

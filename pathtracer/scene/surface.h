@@ -14,8 +14,9 @@ struct Surface {
   const Cylinder* cylinder = nullptr;
   const Material* material = nullptr;
   const Light* light = nullptr;
-  float lightPmf = 0;     ///< probability of choosing the light
-  bool needsUvs = false;  ///< some texture reads them, or tangents follow them
+  float lightPmf = 0;       ///< probability of choosing the light
+  float otherLightPmf = 0;  ///< the same where the environment is left to the BSDF
+  bool needsUvs = false;    ///< some texture reads them, or tangents follow them
   bool needsTangents = false;
   float pixelUv = 0;     ///< width of a pixel of the picture at distance 1, in texture coordinates
   std::uint32_t id = 0;  ///< number of the shape in the whole scene

@@ -167,7 +167,9 @@ TEST_CASE("options that make no sense", "[cli]") {
   refused({"--exposure", "nan"});
   refused({"-D", "novalue"}, {"novalue"});
   refused({"--save-field", "a.field", "--guiding", "none"});
-  refused({"--field", "a.field", "--guiding", "none"});
+  refused({"--field", "a.field", "--guiding", "none"}, {"--guiding none"});
+  refused({"--field", "a.field", "--guiding", "mueller2017"}, {"leave --guiding mueller2017 out"});
+  refused({"--field", "a.field", "--integrator", "direct"}, {"--integrator direct"});
   refused({"--compensation", "uniform", "--guiding", "none"}, {"nothing to compensate"});
   refused({"--integrator", "bidirectional"}, {"bidirectional"});
   refused({"--allocation", "convex"}, {"--integrator direct"});
@@ -204,6 +206,10 @@ TEST_CASE("no output takes the place of an input or of another output", "[cli]")
   refused({"render", "scene.json", "-o", "a.exr", "--save-field", "a.exr"});
   refused({"render", "scene.json", "--png", "b.png", "--report", "b.png"});
   refused({"render", "scene.json", "--field", "c.field", "--save-field", "c.field"});
+  REQUIRE(space.run({"render", "scene.json", "-o", "a.exr", "--spp", "2"}).status == 0);
+  const std::string reference = space.read("a.exr");
+  refused({"compare", "a.exr", "a.exr", "-o", "a.exr"});
+  CHECK(space.read("a.exr") == reference);
   REQUIRE(space.run({"train", "scene.json", "-o", "c.field", "--spp", "12"}).status == 0);
   CHECK(space.run({"render", "scene.json", "--field", "c.field", "--save-field", "d.field", "--spp", "4"}).status == 0);
 }

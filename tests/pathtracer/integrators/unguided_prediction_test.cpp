@@ -42,6 +42,18 @@ SecondMoments secondMoments(const pt::Scene& scene, const pt::RenderSettings& se
   return moments;
 }
 
+void checkPrediction(const pt::SceneDescription& description, bool nee) {
+  pt::RenderSettings settings = settingsFor(description, 64);
+  settings.nee = nee;
+  settings.guiding = eagerGuiding(CompensationForm::WaterFilling);
+  const SecondMoments moments = secondMoments(pt::Scene(description), settings);
+  INFO((nee ? "light sampling" : "no light sampling"));
+  const ZResult agrees = zTest(moments.predicted, moments.unguided, 0.001);
+  INFO(agrees.message);
+  CHECK(agrees);
+  CHECK_FALSE(zTest(moments.predicted, moments.unguidedAndATenth, 0.001));  // the test can tell one from the other
+}
+
 }  // namespace
 
 TEST_CASE("guided paths tell the second moment that paths without a guide have", "[integrators]") {
@@ -51,16 +63,15 @@ TEST_CASE("guided paths tell the second moment that paths without a guide have",
   pt::ShapeDescription wall = description.shapes[0];
   wall.toWorld = pt::Matrix4(0, 0, 2, 0, 0, 2, 0, 0, 1, 0, 0, 0, -0.8f, 0, 0, 1);
   description.shapes.push_back(wall);
-  const pt::Scene scene(description);
-  for (const bool nee : {true, false}) {
-    pt::RenderSettings settings = settingsFor(description, 64);
-    settings.nee = nee;
-    settings.guiding = eagerGuiding(CompensationForm::WaterFilling);
-    const SecondMoments moments = secondMoments(scene, settings);
-    INFO((nee ? "light sampling" : "no light sampling"));
-    const ZResult agrees = zTest(moments.predicted, moments.unguided, 0.001);
-    INFO(agrees.message);
-    CHECK(agrees);
-    CHECK_FALSE(zTest(moments.predicted, moments.unguidedAndATenth, 0.001));  // the test can tell one from the other
-  }
+  for (const bool nee : {true, false}) checkPrediction(description, nee);
+}
+
+TEST_CASE("guided paths tell that second moment also where draws of the BSDF fail", "[integrators]") {
+  // Of a rough mirror's draws many end below its horizon.
+  pt::SceneDescription description = floor();
+  addSquareLight(description, 5, 2, 10);
+  const pt::Roughness roughness{0.8f, pt::MicrofacetDistribution::Ggx, false, {}};
+  description.materials[0] = {"mirror", pt::ConductorMaterial{pt::Spectrum(0.2f), pt::Spectrum(3.9f), 1.0f, roughness},
+                              "test"};
+  checkPrediction(description, true);
 }

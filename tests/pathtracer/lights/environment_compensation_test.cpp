@@ -140,3 +140,25 @@ TEST_CASE("A constant or nearly constant environment is left to the BSDF, a lamp
       if (lamp) CHECK_FALSE(test::zTest(irradiance(surface, 100'000, 1.1), byChance));
     }
 }
+
+TEST_CASE("A lamp beside an environment that is left to the BSDF has the density it is sampled with, however dim") {
+  for (const float groundSize : {1.0f, 2000.0f, 1e6f}) {  // the larger the scene, the more power the environment has
+    CAPTURE(groundSize);
+    SceneDescription description = test::emptyScene();
+    description.lights.push_back({ConstantEnvironment{Spectrum(1)}, "test"});
+    description.environmentSampling = {EnvironmentForm::Mean};
+    description.shapes.push_back(test::makeShape(RectangleShape{}, test::scaling({groundSize, groundSize, 1})));
+    description.shapes.push_back(test::emitter(
+        test::makeShape(RectangleShape{}, test::scaling({0.5f, 0.5f, -0.5f}) * test::translation({0, 0, 2})), 1));
+    const Scene scene(description);
+    SurfaceInteraction si;
+    REQUIRE(scene.intersect({{0.1f, 0.1f, 1}, {0, 0, -1}}, si));
+    const LightReceiver receiver = scene.receiver(si);
+    const LightSample sample = scene.sampleDirect(receiver, 0.5f, {0.3f, 0.6f});
+    REQUIRE(sample.pdf > 0);
+    SurfaceInteraction hit;
+    REQUIRE(scene.intersect(scene.spawnRay(si, sample.wi), hit));
+    REQUIRE(hit.light);
+    CHECK(scene.pdfDirect(receiver, hit) == Approx(sample.pdf).epsilon(1e-3));
+  }
+}

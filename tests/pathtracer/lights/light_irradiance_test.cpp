@@ -183,3 +183,13 @@ TEST_CASE("Shading normals decide which side of a mesh shines") {
   CHECK(sampleIrradiance(Scene(description(1)), {0, 0, 0}, {0, 0, 1}, 1000).mean() == 0);
   CHECK(sampleIrradiance(Scene(description(-1)), {0, 0, 0}, {0, 0, 1}, 1000).mean() > 0);
 }
+
+TEST_CASE("A mesh light whose normals say nothing shines from the front of its triangles, for samples as for rays") {
+  const SceneDescription description =
+      test::litBy(test::makeMesh({{-1, -1, 1}, {0, 1, 1}, {1, -1, 1}}, {{0, 1, 2}}, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}));
+  const Scene scene(description);
+  SurfaceInteraction hit;
+  REQUIRE(scene.intersect({{0, 0, 0}, {0, 0, 1}}, hit));
+  REQUIRE(hit.light->radiance(hit, hit.wo).y > 0);
+  CHECK(sampleIrradiance(scene, {0, 0, 0}, {0, 0, 1}, 1000).mean() > 0);
+}

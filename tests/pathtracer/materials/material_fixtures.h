@@ -119,6 +119,10 @@ inline std::vector<NamedMaterial> smoothLobeMaterials() {
       {"metal", pt::ConductorMaterial{eta, k, 1.0f, rough(0.2f, Ggx)}, "inside"},
       {"coated", pt::PlasticMaterial{1.5f, 1.0f, 0.5f, 1.0f, false, {}}, "inside"}};
   all.push_back({"blend", pt::BlendMaterial{0, 1, 0.3f}, true, pair});
+  all.push_back({"blend with black",
+                 pt::BlendMaterial{0, 1, 0.8f},
+                 true,
+                 {{"black", pt::DiffuseMaterial{pt::Spectrum(0.0f)}, "inside"}, pair[1]}});
   all.push_back({"blend with glass",
                  pt::BlendMaterial{0, 1, {0.5f, 0}},
                  false,
