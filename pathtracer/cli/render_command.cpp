@@ -94,6 +94,9 @@ void tellResult(const RenderOptions& options, const RenderResult& result) {
   if (result.counters.rejectedSamples > 0)
     fmt::print("warning: {} samples were no finite, positive numbers and count as black\n",
                result.counters.rejectedSamples);
+  if (result.counters.failedTextureReads > 0)
+    fmt::print("warning: {} reads of pictures failed, and their texels are black: leave the files alone meanwhile\n",
+               result.counters.failedTextureReads);
   fmt::print("picture {}\npreview {}\nreport  {}\n", options.output.string(), options.png.string(),
              options.report.string());
   if (options.saveField.empty()) return;

@@ -44,6 +44,7 @@ Json toJson(const RenderCounters& counters) {
           {"branches", counters.branches},
           {"cappedSplits", counters.cappedSplits},
           {"rejectedSamples", counters.rejectedSamples},
+          {"failedTextureReads", counters.failedTextureReads},
           {"largestSample", counters.largestSample}};
 }
 

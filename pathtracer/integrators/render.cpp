@@ -277,6 +277,7 @@ RenderResult RenderRun::finish() {
   result.iterations = std::move(m_iterations);
   result.counters = m_passes.counters();
   result.counters.rejectedSamples = m_rejectedSamples;
+  result.counters.failedTextureReads = m_scene.failedTextureReads();
   result.peakRecordBytes = m_passes.peakRecordBytes();
   result.interrupted = stopped() && (m_settings.spp == 0 ? !timeIsOver() : m_sppDone < m_settings.spp);
   if (m_guide) {

@@ -88,6 +88,7 @@ struct RenderCounters {
   std::uint64_t splits = 0, branches = 0;                ///< vertices where a path was split; branches beside the first
   std::uint64_t cappedSplits = 0;                        ///< splits held back because the path had branched enough
   std::uint64_t rejectedSamples = 0;                     ///< non-finite or negative path values, splatted as black
+  std::uint64_t failedTextureReads = 0;                  ///< of the texture cache; what was there is black
   float largestSample = 0;                               ///< of all finite path values and channels
 };
 

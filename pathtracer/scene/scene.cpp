@@ -119,6 +119,10 @@ const Imath::V3d& Scene::origin() const noexcept {
   return m_data->origin;
 }
 
+std::uint64_t Scene::failedTextureReads() const noexcept {
+  return m_data->textures.failedReads();
+}
+
 const Box3& Scene::bounds() const noexcept {
   return m_data->bounds;
 }

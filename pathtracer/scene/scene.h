@@ -81,6 +81,8 @@ class Scene {
   const Box3& bounds() const noexcept;
   const SceneFeatures& features() const noexcept { return m_features; }
   const SceneCounts& counts() const noexcept { return m_counts; }
+  /// Since the scene was built; see TextureSet::failedReads().
+  std::uint64_t failedTextureReads() const noexcept;
 
  private:
   std::uint32_t environmentDensity(const SurfaceInteraction& si) const noexcept;

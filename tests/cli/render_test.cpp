@@ -40,6 +40,7 @@ TEST_CASE("the report tells what was done", "[cli]") {
   CHECK(report["settings"]["guiding"]["field"]["compensation"]["form"] == "uniform");
   CHECK(report["counters"]["paths"] == 20 * 64);
   CHECK(report["counters"]["rejectedSamples"] == 0);
+  CHECK(report["counters"]["failedTextureReads"] == 0);
   CHECK(report["iterations"].size() >= 2);
   CHECK(report["field"]["samples"] > 0);
   CHECK(report["scene"]["leftOut"].size() > 0);
