@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws error against time for papers, one figure a scene, from results.json: SVG and PNG.
 
-Usage: bench/plot.py DIR/results.json [-o FOLDER] [--metric relMse|relMseTrimmed] [--variants NAME,...]
+Usage: bench/plot.py DIR/results.json [-o FOLDER] [--metric relMse|relMseTrimmed] [--variants NAME NAME ...]
 Needs matplotlib (Debian: python3-matplotlib).
 """
 import argparse
@@ -60,11 +60,11 @@ def main():
     parser.add_argument("results", type=pathlib.Path, help="results.json of a run")
     parser.add_argument("-o", "--out", type=pathlib.Path, help="folder for the figures (default: beside the results)")
     parser.add_argument("--metric", choices=CURVES, default="relMse")
-    parser.add_argument("--variants", default="", help="names, separated by commas (default: all)")
+    parser.add_argument("--variants", nargs="+", default=[], help="names (default: all)")
     arguments = parser.parse_args()
     folder = arguments.out or arguments.results.parent / "plots"
     folder.mkdir(parents=True, exist_ok=True)
-    names = set(filter(None, arguments.variants.split(",")))
+    names = set(arguments.variants)
     for scene in json.loads(arguments.results.read_text())["scenes"]:
         if any(v["cells"] for v in scene["variants"]):
             draw_scene(scene, arguments.metric, names, folder)

@@ -18,14 +18,9 @@ namespace {
 
 constexpr std::int64_t kMostSpp = std::int64_t(1) << 30;
 
-/// Names become parts of file names.
 std::string nameOf(JsonObject& object) {
   const std::string name = object.string("name");
-  const auto isPlain = [](unsigned char c) {
-    return std::isalnum(c) || std::string_view("-_+,=@").find(char(c)) != std::string_view::npos;
-  };
-  if (name.empty() || !std::all_of(name.begin(), name.end(), isPlain))
-    object.placeOf("name").fail(fmt::format("'{}' is no name; use letters, digits and -_+,=@", name));
+  if (!isPlainName(name)) object.placeOf("name").fail(fmt::format("'{}' is no name; use {}", name, kPlainNames));
   return name;
 }
 
@@ -168,6 +163,13 @@ Json parseFile(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+bool isPlainName(const std::string& name) {
+  const auto isPlain = [](unsigned char c) {
+    return std::isalnum(c) || std::string_view("-_+,=@").find(char(c)) != std::string_view::npos;
+  };
+  return !name.empty() && std::all_of(name.begin(), name.end(), isPlain);
+}
 
 Plan loadPlan(const std::filesystem::path& file) {
   const Json json = parseFile(file);

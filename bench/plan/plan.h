@@ -15,6 +15,10 @@ namespace bench {
 
 using Json = nlohmann::ordered_json;
 
+/// Whether a name may be that of a scene, a variant or an imported picture: names become parts of file names.
+bool isPlainName(const std::string& name);
+inline constexpr const char* kPlainNames = "letters, digits and -_+,=@";
+
 /// One way to render: a name and the settings that differ.
 struct Variant {
   std::string name;

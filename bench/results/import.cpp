@@ -20,6 +20,13 @@ const ScenePlan& sceneOf(const Plan& plan, const std::string& name) {
   throw pt::InputError(fmt::format("the plan has no scene '{}'", name));
 }
 
+void checkName(const Plan& plan, const std::string& name) {
+  if (!isPlainName(name)) throw pt::InputError(fmt::format("'{}' is no name; use {}", name, kPlainNames));
+  for (const Variant& variant : plan.variants)
+    if (variant.name == name)
+      throw pt::InputError(fmt::format("'{}' is a variant of the plan; give the picture another name", name));
+}
+
 pt::Image referenceOf(const ScenePlan& scene, const RunFolder& folder) {
   const ReferenceEstimator& main = scene.reference.main;
   const ReferenceStore store(folder.references);
@@ -32,6 +39,7 @@ pt::Image referenceOf(const ScenePlan& scene, const RunFolder& folder) {
 }  // namespace
 
 ImportedPoint importPicture(const Plan& plan, const RunFolder& folder, const ImportRequest& request) {
+  checkName(plan, request.name);
   const ScenePlan& scene = sceneOf(plan, request.scene);
   const pt::Image picture = pt::readImage(request.picture);
   ImportedPoint point{request.name, request.scene, {request.seconds, request.spp, {}}};

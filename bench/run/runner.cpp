@@ -93,7 +93,6 @@ void Runner::collectJobs() {
       m_sceneHashes[&scene] = hashScene(scene);
     } catch (const pt::InputError& error) {
       fmt::print(stderr, "{}: {}\n", scene.name, error.what());
-      for (const Job& job : cellJobs(m_plan, scene)) storeFailure(m_folder, job.cellId(), "", error.what());
       continue;
     }
     for (const Job& job : referenceJobs(scene)) jobs.push_back(job);

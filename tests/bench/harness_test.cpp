@@ -1,4 +1,5 @@
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -42,7 +43,7 @@ std::string read(const fs::path& file) {
 /// A folder with a scene and a plan of sample budgets, whose errors do not depend on the machine.
 class Workshop {
  public:
-  Workshop() : m_root(fs::temp_directory_path() / "guiding_harness_test") {
+  Workshop() : m_root(fs::temp_directory_path() / ("guiding_harness_test_" + std::to_string(getpid()))) {
     fs::remove_all(m_root);
     fs::create_directories(m_root / "scene");
     std::ofstream(m_root / "scene" / "scene.xml") << kScene;
@@ -112,6 +113,16 @@ TEST_CASE("a run yields tables, curves and a page, and resumes to the same table
   CHECK(fs::last_write_time(workshop.out() / "cells" / "lamp.path.0.json") == kept);
   CHECK(workshop.log().find("lamp.guided.1") != std::string::npos);
   CHECK(workshop.log().find("lamp.path.0") == std::string::npos);
+
+  // What was rendered outlives a scene that is not there for a while.
+  const std::string file = workshop.plan["scenes"][0]["file"];
+  workshop.plan["scenes"][0]["file"] = "elsewhere.json";
+  workshop.run();
+  CHECK(workshop.log().find("elsewhere.json") != std::string::npos);
+  workshop.plan["scenes"][0]["file"] = file;
+  REQUIRE(workshop.run() == 0);
+  CHECK(errorsOf(workshop.results()) == errorsOf(first));
+  CHECK(fs::last_write_time(workshop.out() / "cells" / "lamp.path.0.json") == kept);
 }
 
 TEST_CASE("the page draws itself in a browser without a network") {
@@ -187,6 +198,8 @@ TEST_CASE("a foreign picture becomes a point of the report") {
   const Json& own = results.at("scenes").at(0).at("variants").at(0).at("cells").at(0).at("curve").back();
   CHECK(import.at("point").at("relMse").get<double>() == Approx(own.at("relMse").get<double>()).epsilon(1e-4));
   CHECK(workshop.run("import", "other " + picture + " --scene nowhere --time 2 --spp 64") == 2);
+  CHECK(workshop.run("import", "path " + picture + " --scene lamp --time 2 --spp 64") == 2);      // the plan's own
+  CHECK(workshop.run("import", "../other " + picture + " --scene lamp --time 2 --spp 64") == 2);  // no name
 }
 
 TEST_CASE("a broken plan ends the program with status 2 and one line") {

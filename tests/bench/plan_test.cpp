@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -19,7 +21,8 @@ Json goodPlan() {
 }
 
 bench::Plan load(const Json& json) {
-  const auto file = std::filesystem::temp_directory_path() / "guiding_plan_test.json";
+  const auto file =
+      std::filesystem::temp_directory_path() / ("guiding_plan_test_" + std::to_string(getpid()) + ".json");
   std::ofstream(file) << json.dump();
   return bench::loadPlan(file);
 }
