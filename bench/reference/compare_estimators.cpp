@@ -3,7 +3,7 @@
 
 #include "core/types.h"
 #include "reference/reference.h"
-#include "statistics/student_t.h"
+#include "statistics/welch.h"
 
 namespace bench {
 
@@ -30,32 +30,10 @@ double meanLuminance(const pt::Image& image, const Tile& tile) {
   return sum / double((tile.x1 - tile.x0) * (tile.y1 - tile.y0));
 }
 
-struct Moments {
-  double mean = 0, variance = 0;  ///< of the mean
-  double n = 0;
-};
-
-Moments momentsOf(const std::vector<pt::Image>& parts, const Tile& tile) {
+MeanEstimate meanOf(const std::vector<pt::Image>& parts, const Tile& tile) {
   std::vector<double> values;
   for (const pt::Image& part : parts) values.push_back(meanLuminance(part, tile));
-  Moments m;
-  m.n = double(values.size());
-  for (const double v : values) m.mean += v / m.n;
-  for (const double v : values) m.variance += (v - m.mean) * (v - m.mean) / (m.n * (m.n - 1));
-  return m;
-}
-
-struct Welch {
-  double t = 0, chance = 1;  ///< chance: two-sided p-value
-};
-
-Welch welchTest(const Moments& a, const Moments& b) {
-  const double variance = a.variance + b.variance;
-  if (!(variance > 0)) return a.mean == b.mean ? Welch{0, 1} : Welch{INFINITY, 0};
-  const double t = (a.mean - b.mean) / std::sqrt(variance);
-  const double freedom =
-      variance * variance / (a.variance * a.variance / (a.n - 1) + b.variance * b.variance / (b.n - 1));
-  return {t, 2 * studentCdf(-std::abs(t), freedom)};
+  return MeanEstimate::of(values);
 }
 
 }  // namespace
@@ -68,12 +46,12 @@ Agreement compareEstimators(const std::vector<pt::Image>& a, const std::vector<p
   agreement.tests = int(tiles.size());
   double least = 1;
   for (const Tile& tile : tiles) {
-    const Welch test = welchTest(momentsOf(a, tile), momentsOf(b, tile));
+    const WelchTest test = welchTest(meanOf(a, tile), meanOf(b, tile));
     agreement.worstT = std::max(agreement.worstT, std::abs(test.t));
     least = std::min(least, test.chance);
   }
-  agreement.chanceOfWorst = -std::expm1(double(tiles.size()) * std::log1p(-least));
-  const double meanA = momentsOf(a, whole).mean, meanB = momentsOf(b, whole).mean;
+  agreement.chanceOfWorst = chanceOfLeast(least, agreement.tests);
+  const double meanA = meanOf(a, whole).mean, meanB = meanOf(b, whole).mean;
   agreement.meanDifference = meanA != 0 ? (meanB - meanA) / meanA : meanB;
   return agreement;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "statistics/student_t.h"
+#include "statistics/welch.h"
 
 namespace bench {
 
@@ -11,34 +11,10 @@ namespace {
 
 constexpr int kTilesPerSide = 4;
 
-struct Moments {
-  double mean = 0, varianceOfMean = 0, count = 0;
-};
-
-Moments momentsOf(const std::vector<double>& values) {
-  Moments m;
-  m.count = double(values.size());
-  for (const double v : values) m.mean += v / m.count;
-  if (values.size() > 1)
-    for (const double v : values) m.varianceOfMean += (v - m.mean) * (v - m.mean) / (m.count * (m.count - 1));
-  return m;
-}
-
 /// Two-sided probability, with the sign of the difference.
-double signedChance(const Moments& a, const Moments& b, double tolerance) {
-  const double difference = a.mean - b.mean;
-  const double slack = tolerance * std::max(std::abs(a.mean), std::abs(b.mean));
-  const double excess = std::max(0.0, std::abs(difference) - slack);
-  const double variance = a.varianceOfMean + b.varianceOfMean;
-  if (excess == 0) return std::copysign(1.0, difference);
-  if (!(variance > 0)) return std::copysign(0.0, difference);
-  const auto share = [](const Moments& m) {
-    return m.count > 1 ? m.varianceOfMean * m.varianceOfMean / (m.count - 1) : 0.0;
-  };
-  // Ratios first: the fourth power of a large radiance leaves the range of double.
-  const double freedom =
-      1 / (share({0, a.varianceOfMean / variance, a.count}) + share({0, b.varianceOfMean / variance, b.count}));
-  return std::copysign(std::clamp(2 * studentCdf(-excess / std::sqrt(variance), freedom), 0.0, 1.0), difference);
+double signedChance(const MeanEstimate& a, const MeanEstimate& b, double tolerance) {
+  const WelchTest test = welchTest(a, b, tolerance * std::max(std::abs(a.mean), std::abs(b.mean)));
+  return std::copysign(test.chance, a.mean - b.mean);
 }
 
 /// Mean of the tile's pixels and channels.
@@ -52,10 +28,10 @@ double tileMean(const pt::Image& image, int x0, int y0, int x1, int y1) {
   return sum / (double(x1 - x0) * (y1 - y0));
 }
 
-Moments tileMoments(const std::vector<pt::Image>& pictures, int x0, int y0, int x1, int y1) {
+MeanEstimate tileEstimate(const std::vector<pt::Image>& pictures, int x0, int y0, int x1, int y1) {
   std::vector<double> means;
   for (const pt::Image& picture : pictures) means.push_back(tileMean(picture, x0, y0, x1, y1));
-  return momentsOf(means);
+  return MeanEstimate::of(means);
 }
 
 }  // namespace
@@ -75,7 +51,7 @@ double biasScore(const std::vector<pt::Image>& pictures, const std::vector<pt::I
   int tests = 0;
   const auto test = [&](int x0, int y0, int x1, int y1) {
     const double chance =
-        signedChance(tileMoments(pictures, x0, y0, x1, y1), tileMoments(truth, x0, y0, x1, y1), tolerance);
+        signedChance(tileEstimate(pictures, x0, y0, x1, y1), tileEstimate(truth, x0, y0, x1, y1), tolerance);
     if (std::abs(chance) < std::abs(worst)) worst = chance;
     ++tests;
   };
@@ -85,12 +61,11 @@ double biasScore(const std::vector<pt::Image>& pictures, const std::vector<pt::I
     for (int row = 0; row < rows; ++row)
       for (int column = 0; column < columns; ++column)
         test(width * column / columns, height * row / rows, width * (column + 1) / columns, height * (row + 1) / rows);
-  const double ofFamily = -std::expm1(double(tests) * std::log1p(-std::abs(worst)));
-  return std::copysign(scoreOfChance(ofFamily), worst);
+  return std::copysign(scoreOfChance(chanceOfLeast(std::abs(worst), tests)), worst);
 }
 
 double meanScore(const std::vector<double>& values, double truth, double tolerance) {
-  const double chance = signedChance(momentsOf(values), {truth, 0, 1}, tolerance);
+  const double chance = signedChance(MeanEstimate::of(values), {truth, 0, 1}, tolerance);
   return std::copysign(scoreOfChance(std::abs(chance)), chance);
 }
 

@@ -4,6 +4,7 @@
 #include "catch.h"
 #include "statistics/log_mean_interval.h"
 #include "statistics/student_t.h"
+#include "statistics/welch.h"
 
 namespace {
 
@@ -99,4 +100,22 @@ TEST_CASE("without two usable errors there is no interval and no verdict") {
 TEST_CASE("a variant with half the error is called better") {
   CHECK(rateOfVerdicts(5, 0.3, 0.5, 200) > 0.8);
   CHECK(rateOfVerdicts(20, 0.3, 0.5, 200) == 1);
+}
+
+TEST_CASE("Welch's test by hand, with slack, and of exact means") {
+  const bench::MeanEstimate a{1, 0.04, 5}, b{2, 0.09, 10};
+  const bench::WelchTest test = bench::welchTest(a, b);  // 13 degrees of freedom
+  CHECK(test.t == Approx(-1 / std::sqrt(0.13)));
+  CHECK(test.chance == Approx(0.0158114).epsilon(1e-5));
+  CHECK(bench::welchTest(b, a).t == -test.t);
+  CHECK(bench::welchTest(a, b, 0.5).t == Approx(test.t / 2));
+  CHECK(bench::welchTest(a, b, 1).chance == 1);
+  CHECK(bench::welchTest({1, 0, 1}, {1, 0, 1}).chance == 1);
+  CHECK(bench::welchTest({1, 0, 1}, {2, 0, 1}).chance == 0);
+  CHECK(bench::welchTest({1e150, 1e298, 5}, {2e150, 1e298, 5}).chance > 0);  // squares beyond the range of double
+
+  const bench::MeanEstimate m = bench::MeanEstimate::of({1, 2, 3, 6});
+  CHECK(m.mean == 3);
+  CHECK(m.varianceOfMean == Approx(14.0 / 3 / 4));
+  CHECK(bench::chanceOfLeast(0.01, 10) == Approx(1 - std::pow(0.99, 10)));
 }
