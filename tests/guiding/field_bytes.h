@@ -1,5 +1,7 @@
 #pragma once
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,10 +13,13 @@
 
 namespace test {
 
-/// A name in the working directory that is removed at the end.
+/// A name among temporary files that is this process's own, for tests run side by side; removed at the end.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(std::string name) : m_path(std::move(name)) { std::filesystem::remove(m_path); }
+  explicit TemporaryFile(const std::string& name)
+      : m_path(std::filesystem::temp_directory_path() / ("guiding-" + std::to_string(getpid()) + "-" + name)) {
+    std::filesystem::remove(m_path);
+  }
   TemporaryFile(const TemporaryFile&) = delete;
   ~TemporaryFile() {
     std::error_code ignored;
