@@ -2,8 +2,6 @@
 
 #include <guiding/field.h>
 
-#include <functional>
-
 #include "synthetic/light_field.h"
 #include "synthetic/random.h"
 

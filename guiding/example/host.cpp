@@ -46,7 +46,7 @@ constexpr float kPi = 3.14159265f, kAlbedo = 0.6f, kLampRadiance = 100, kLampHal
 
 struct Hit {
   Vec position, normal;
-  float emission;
+  float emission, distance;
 };
 
 // The wall that a ray from inside meets.
@@ -64,7 +64,7 @@ Hit trace(Vec o, Vec d) {
   wall(o.z, d.z, {0, 0, 1});
   const Vec p = o + d * (nearest * 0.99999f);
   const bool lamp = normal.z < 0 && std::abs(p.x - 0.5f) < kLampHalfWidth && std::abs(p.y - 0.5f) < kLampHalfWidth;
-  return {p, normal, lamp ? kLampRadiance : 0};
+  return {p, normal, lamp ? kLampRadiance : 0, nearest};
 }
 
 // 2. The host's BSDF as the mixture wants it: evaluate() and sample() for one shading point.
@@ -115,6 +115,7 @@ float radiance(Vec position, Vec normal, const guiding::Field* field, Random& ra
                       .isDelta = draw.isDelta});
     throughput *= draw.weight;
     const Hit hit = trace(position, fromGuide(draw.wi));
+    recorder.setDistance(hit.distance);
     recorder.addEmission(grey(hit.emission));
     sum += throughput * hit.emission;
     position = hit.position;

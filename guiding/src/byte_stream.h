@@ -3,7 +3,6 @@
 #include <bit>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <type_traits>
 #include <vector>
 

@@ -1,6 +1,5 @@
 #include "freeze.h"
 
-#include <algorithm>
 #include <array>
 
 #include "guiding/mis.h"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <new>
-#include <stdexcept>
-
 #include "guiding/result.h"
 
 namespace guiding {

@@ -1,6 +1,5 @@
 #include "guiding/path_recorder.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "grow.h"

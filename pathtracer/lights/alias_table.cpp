@@ -1,7 +1,6 @@
 #include "lights/alias_table.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace pt {
 

@@ -1,6 +1,5 @@
 #include "lights/spot_light.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "lights/point_light.h"

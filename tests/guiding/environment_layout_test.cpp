@@ -1,4 +1,3 @@
-#include <map>
 
 #include "catch.h"
 #include "environment_fixture.h"

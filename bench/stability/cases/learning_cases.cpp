@@ -195,7 +195,7 @@ ProbeResult quadtreeDepthCap(const StabilityVariant& variant) {
   }
   ProbeResult result = probeOf(field, random);
   const int depth = field.stats().maxQuadtreeDepth;
-  if (depth > variant.guiding->field.maxDTreeDepth) result.fault = "deeper than the cap";
+  if (depth != variant.guiding->field.maxDTreeDepth) result.fault = "does not reach the cap, or goes beyond it";
   result.figures = fmt::format("depth {}", depth);
   return result;
 }

@@ -5,7 +5,6 @@
 
 #include <memory>
 #include <span>
-#include <string>
 
 #include "guiding/distribution.h"
 #include "guiding/lobes.h"
@@ -66,7 +65,7 @@ class Field {
   const Imath::Box3f& bounds() const noexcept;
   FieldStats stats() const noexcept;
 
-  /// Walks every tree: masses finite and >= 0, parents the sum of children, densities integrate to 1, indices in range.
+  /// Walks every tree: sums finite and >= 0, densities integrate to 1, indices in range.
   /// The error names the first violation.
   Status validate() const noexcept;
 

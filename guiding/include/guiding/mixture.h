@@ -31,7 +31,7 @@ template <class Color>
 struct MixtureDraw {
   Imath::V3f wi;
   Color weight;   ///< throughput weight: BSDF * |cos| / mixturePdf; black: the path ends
-  Color bsdfCos;  ///< BSDF * |cos|; unset for delta events
+  Color bsdfCos;  ///< BSDF * |cos|; for a delta event the lobe's weight * probability
   float pdf = 0;  ///< alpha * bsdfPdf + (1 - alpha) * guidePdf, per solid angle; for a delta event alpha *
                   ///< probability; 0: the sample failed, its weight is black
   float bsdfPdf = 0;

@@ -18,7 +18,8 @@ struct RadianceSample {
   float pdf = 0;       ///< density of `direction` (mixture of BSDF and guide), per solid angle, > 0
   float bsdfPdf = 0;   ///< the BSDF sampler's own density of `direction`, per solid angle, >= 0
   float guidePdf = 0;  ///< the guide's density of `direction`, per solid angle; 0 where no guide was mixed in
-  float distance = 0;  ///< to the next vertex along `direction`, scene units; infinity when the ray left the scene
+  float distance = 0;  ///< to the next vertex along `direction`, scene units; infinity when the ray left the scene. For
+                       ///< learners that ask for it; Field does not
 };
 
 /// Samples of one tile in the order in which its paths were traced. Keeps its memory between uses.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "guiding/result.h"
 
@@ -15,8 +14,8 @@ enum class DirectionMap {
 
 /// How the sampled density is sharpened against the BSDF before it is sampled [Karlík et al. 2019].
 enum class CompensationForm {
-  None,             ///< the learned density as it is
-  WaterFilling,     ///< exact optimum max(alpha b, t/lambda) for uniform b
+  None,          ///< the learned density as it is
+  WaterFilling,  ///< exact optimum max(alpha b, t/lambda); b is uniform, or learned or given by lobes with the product
   ClipRenormalise,  ///< published form: clip t/T - alpha b at zero and renormalise
 };
 
@@ -95,8 +94,9 @@ struct FieldSettings {
 
   /// A spatial leaf offers no guide as long as the loss that its fraction minimises falls by less than this against
   /// sampling the BSDF alone: nats, or a share of the second moment for FractionLoss::Variance. Only
-  /// FractionMode::Fit can tell; no effect with the others. Range: >= 0; 0: every leaf that learned something offers
-  /// its guide.
+  /// FractionMode::Fit can tell; no effect with the others. With `product` a leaf that rests is judged by its density
+  /// without the lobes, so that it may rest longer than it needs. Range: >= 0; 0: every leaf that learned something
+  /// offers its guide.
   float minimalGain = 0;
 
   /// A sample is learned with at most this share of all that its spatial leaf learned in the iteration before, so that
@@ -119,8 +119,8 @@ struct FieldSettings {
   /// What our measurements recommend (bench/README.md).
   static FieldSettings recommended();
 
-  /// The density bound to the shading point by the host's lobes, and all that goes with it: least error for a number of
-  /// samples, at a price in time that pays where rays are expensive (bench/README.md).
+  /// The density bound to the shading point by the host's lobes, and all that goes with it: of the densities that learn
+  /// the radiance the one with the least error for a number of samples, at a price in time (bench/README.md).
   static FieldSettings boundProduct();
 
   /// Ok, or which field is out of range.
