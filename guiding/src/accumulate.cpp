@@ -124,15 +124,16 @@ void splatByLeaf(Field::State& state, const LeafPartition<Item>& splats) {
     SpatialLeaf& target = state.leaves[leaf];
     target.sampleCount += splats.ofLeaf(leaf).size() + splats.idleCount[leaf];
     for (const Item& splat : splats.ofLeaf(leaf)) {
+      int depth = 0;  // not known yet
       if constexpr (std::is_same_v<Item, ProductSplat>) {
-        target.building.splatBsdf(splat.point, splat.bsdf);
+        depth = target.building.splatBsdf(splat.point, splat.bsdf);
         if (!(splat.value > 0)) continue;
       }
       const double value = target.largestRecord > 0 ? std::min(splat.value, target.largestRecord) : splat.value;
-      if (box)
-        splatBox(target.building, map, splat.point, value);
-      else
+      if (!box)
         target.building.splat(splat.point, value);
+      else
+        splatBox(target.building, map, splat.point, depth > 0 ? depth : target.building.depthAt(splat.point), value);
     }
   });
 }

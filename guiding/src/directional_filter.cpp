@@ -14,9 +14,24 @@ struct Box {
   double area() const noexcept { return double(x1 - x0) * double(y1 - y0); }
 };
 
-/// Splats the part of the box inside a node; `density` is value per unit area.
+/// Splats a box that lies inside a node; `density` is value per unit area.
 void splatInto(std::vector<DirectionalQuadtree::Node>& nodes, std::uint32_t index, std::int64_t x, std::int64_t y,
                std::int64_t half, const Box& box, double density) noexcept {
+  // Down to the node whose cells part the box: most have all of it in one.
+  for (;;) {
+    const bool right = box.x0 >= x + half, upper = box.y0 >= y + half;
+    if ((!right && box.x1 > x + half) || (!upper && box.y1 > y + half)) break;
+    const int c = (right ? 1 : 0) + (upper ? 2 : 0);
+    const QuadtreeLinks links = nodes[index].links;
+    if (links.isLeaf(c)) {
+      nodes[index].sum[c] += box.area() * density;
+      return;
+    }
+    index = links.childIndex(c);
+    x += right ? half : 0;
+    y += upper ? half : 0;
+    half /= 2;
+  }
   for (int c = 0; c < 4; ++c) {
     const std::int64_t cx = x + (c & 1) * half, cy = y + (c >> 1) * half;
     const Box part{std::max(box.x0, cx), std::min(box.x1, cx + half), std::max(box.y0, cy),
@@ -26,17 +41,7 @@ void splatInto(std::vector<DirectionalQuadtree::Node>& nodes, std::uint32_t inde
     if (links.isLeaf(c))
       nodes[index].sum[c] += part.area() * density;
     else
-      splatInto(nodes, links.childIndex(c), cx, cy, half / 2, box, density);
-  }
-}
-
-std::int64_t cellSizeAt(const DirectionalQuadtree& tree, SquarePoint point) noexcept {
-  std::uint32_t index = 0;
-  for (int depth = 0;; ++depth) {
-    const QuadtreeLinks links = tree.nodes()[index].links;
-    const int cell = point.cellAt(depth);
-    if (links.isLeaf(cell)) return kOne >> (depth + 1);
-    index = links.childIndex(cell);
+      splatInto(nodes, links.childIndex(c), cx, cy, half / 2, part, density);
   }
 }
 
@@ -92,8 +97,8 @@ void splatAnywhere(std::vector<DirectionalQuadtree::Node>& nodes, DirectionMap m
 
 }  // namespace
 
-void splatBox(DirectionalQuadtree& tree, DirectionMap map, SquarePoint point, double value) noexcept {
-  const std::int64_t size = cellSizeAt(tree, point);
+void splatBox(DirectionalQuadtree& tree, DirectionMap map, SquarePoint point, int depth, double value) noexcept {
+  const std::int64_t size = kOne >> depth;
   if (size <= 1) return tree.splat(point, value);
   const std::int64_t x = std::int64_t(point.x) - size / 2, y = std::int64_t(point.y) - size / 2;
   splatAnywhere(tree.nodes(), map, {x, x + size, y, y + size}, value / (double(size) * double(size)), 3);

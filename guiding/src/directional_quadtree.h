@@ -54,15 +54,25 @@ class DirectionalQuadtree {
   /// From now on learns the BSDF's density beside the flux.
   void learnBsdf() { m_bsdf.resize(m_nodes.size()); }
   bool learnsBsdf() const noexcept { return !m_bsdf.empty(); }
-  /// Adds `value` to what the leaf cell that contains the point has of the BSDF's density.
-  void splatBsdf(SquarePoint point, double value) noexcept {
+  /// Depth of the leaf cell that contains the point; 1: a quarter of the square.
+  int depthAt(SquarePoint point) const noexcept {
+    std::uint32_t index = 0;
+    for (int depth = 0;; ++depth) {
+      const QuadtreeLinks links = m_nodes[index].links;
+      const int cell = point.cellAt(depth);
+      if (links.isLeaf(cell)) return depth + 1;
+      index = links.childIndex(cell);
+    }
+  }
+  /// Adds `value` to what the leaf cell that contains the point has of the BSDF's density. Returns depthAt(point).
+  int splatBsdf(SquarePoint point, double value) noexcept {
     std::uint32_t index = 0;
     for (int depth = 0;; ++depth) {
       const QuadtreeLinks links = m_nodes[index].links;
       const int cell = point.cellAt(depth);
       if (links.isLeaf(cell)) {
         m_bsdf[index][cell] += value;
-        return;
+        return depth + 1;
       }
       index = links.childIndex(cell);
     }

@@ -9,7 +9,7 @@ using namespace test;
 namespace {
 
 DirectionalQuadtree splatted(DirectionMap map, DirectionalQuadtree tree, const Imath::V2f& uv) {
-  splatBox(tree, map, toSquarePoint(uv), 1);
+  splatBox(tree, map, toSquarePoint(uv), tree.depthAt(toSquarePoint(uv)), 1);
   return tree;
 }
 
