@@ -154,7 +154,7 @@ bool GuidedPathLoop<Guides>::reflect(PathState& path, const SurfaceInteraction& 
 template <GuideSource Guides>
 auto GuidedPathLoop<Guides>::emission(const PathState& path, const Ray& ray,
                                       const SurfaceInteraction* hit) const noexcept -> Emission {
-  if (m_settings.hideEmitters && path.depth == 1) return {};
+  if (m_settings.hideEmitters && path.isStraight) return {};
   Spectrum emitted(0.0f);
   if (hit) {
     if (hit->light) emitted = hit->light->radiance(*hit, hit->wo);
@@ -253,6 +253,8 @@ bool GuidedPathLoop<Guides>::scatter(PathState& path, const SurfaceInteraction& 
   path.pdf = draw.pdf;
   path.bsdfPdf = draw.bsdfPdf;
   path.isDelta = draw.isDelta;
+  constexpr float kStraight = 1e-8f;  // roundings
+  path.isStraight = path.isStraight && draw.isDelta && (draw.wi + si.wo).length2() < kStraight;
   if (worker.records)
     worker.recorder.scatter({si.p, draw.wi, draw.weight * path.arriving, draw.bsdfCos, draw.pdf, draw.bsdfPdf,
                              draw.guidePdf, draw.isDelta});

@@ -27,7 +27,8 @@ struct PathState {
   float pdf = 0;                    ///< mixture density of the ray at `previous`, per solid angle
   float bsdfPdf = 0;                ///< the BSDF's own
   bool isDelta = true;  ///< light sampling at `previous` cannot find what the ray met: camera rays and delta scattering
-  MediumStack media;    ///< around the ray
+  bool isStraight = true;   ///< the camera's ray still, passed on by masks at most
+  MediumStack media;        ///< around the ray
   Spectrum arriving{1.0f};  ///< share of the light on the ray that they leave
 };
 

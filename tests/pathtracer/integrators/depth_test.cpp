@@ -101,6 +101,23 @@ TEST_CASE("hidden emitters are not seen but still light", "[integrators]") {
   CHECK(meanLuminance(render(scene, settings).image) == Approx(0.25).epsilon(1e-5));
 }
 
+TEST_CASE("hidden emitters are not seen through the holes of a mask either", "[integrators]") {
+  pt::SceneDescription description = furnace(0.0f, 0.5f);
+  description.integrator.hideEmitters = true;
+  description.materials.push_back({"inside", pt::DiffuseMaterial{0.0f}, "test"});
+  description.materials.push_back({"leaf", pt::MaskMaterial{1, 0.5f}, "test"});
+  pt::ShapeDescription leaf;
+  leaf.kind = pt::SphereShape{{0.2f, -0.1f, 0.3f}, 0.1f};  // around the camera
+  leaf.material = 2;
+  description.shapes.push_back(leaf);
+  const pt::Scene scene(description);
+  pt::RenderSettings settings = settingsFor(description, 16);
+  settings.path.rrDepth = kNoRoulette;
+  CHECK(meanLuminance(render(scene, settings).image) == 0);
+  settings.path.hideEmitters = false;
+  CHECK(meanLuminance(render(scene, settings).image) == Approx(0.25).epsilon(0.1));
+}
+
 TEST_CASE("impossible depths are refused", "[integrators]") {
   const pt::SceneDescription description = furnace(0.5f, 0.5f);
   const pt::Scene scene(description);
